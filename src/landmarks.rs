@@ -7,8 +7,9 @@ use crate::mesh::check::CheckedMesh;
 use crate::mesh::insertion::{Insertion, insert};
 use crate::mesh::{FaceId, MeshError, SurfaceMesh, SurfacePoint, VertexId, ids_id as id};
 use rustc_hash::FxHashMap;
-use serde::{Deserialize, Serialize};
 use typed_index_collections::TiVec;
+
+pub use crate::mesh_side::MeshSide;
 
 id!(
     /// A landmark: the same number on the source, the target and the base domain.
@@ -25,30 +26,6 @@ pub struct Landmarks {
     pub source: TiVec<LandmarkId, VertexId>,
     /// Vertex of the target, by landmark.
     pub target: TiVec<LandmarkId, VertexId>,
-}
-
-/// One of the two meshes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
-#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
-#[serde(rename_all = "snake_case")]
-pub enum MeshSide {
-    /// The source.
-    Source,
-    /// The target.
-    Target,
-}
-
-/// Both sides in the order of a pair.
-const SIDES: [MeshSide; 2] = [MeshSide::Source, MeshSide::Target];
-
-impl std::fmt::Display for MeshSide {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Source => "source",
-            Self::Target => "target",
-        })
-    }
 }
 
 /// Why landmarks cannot be used. Its words count the pairs from 1, as people do; its fields from 0.
@@ -167,7 +144,7 @@ pub fn place(
     meshes: [&CheckedMesh; 2],
     pairs: &[[LandmarkPoint; 2]],
 ) -> Result<PlacedLandmarks, LandmarkError> {
-    let [source, target] = [0, 1].map(|k| points(meshes[k], SIDES[k], pairs));
+    let [source, target] = MeshSide::BOTH.map(|side| points(meshes[side], side, pairs));
     place_points(meshes.map(|checked| &checked.mesh), [&source?, &target?])
 }
 
@@ -208,7 +185,7 @@ pub fn points(
     side: MeshSide,
     pairs: &[[LandmarkPoint; 2]],
 ) -> Result<Vec<SurfacePoint>, LandmarkError> {
-    pairs.iter().enumerate().map(|(pair, ends)| point(mesh, side, pair, ends[side as usize])).collect()
+    pairs.iter().enumerate().map(|(pair, ends)| point(mesh, side, pair, ends[side])).collect()
 }
 
 fn point(
@@ -286,7 +263,7 @@ fn checked_side(
     side: MeshSide,
     mesh: &SurfaceMesh,
 ) -> Result<Vec<VertexId>, LandmarkError> {
-    let vertices: Vec<VertexId> = pairs.iter().map(|ends| VertexId(ends[side as usize])).collect();
+    let vertices: Vec<VertexId> = pairs.iter().map(|ends| VertexId(ends[side])).collect();
     let count = mesh.vertex_count();
     if let Some(pair) = vertices.iter().position(|v| v.index() >= count) {
         let vertex = vertices[pair].index();
@@ -325,8 +302,9 @@ mod tests {
         let ball = ball();
         let at = LandmarkPoint::Vertex;
         let on = |face, barycentric| LandmarkPoint::OnFace { face, barycentric };
-        let check =
-            |pairs: &[[LandmarkPoint; 2]]| SIDES.iter().try_for_each(|&side| check_side(&ball, side, pairs));
+        let check = |pairs: &[[LandmarkPoint; 2]]| {
+            MeshSide::BOTH.iter().try_for_each(|&side| check_side(&ball, side, pairs))
+        };
         let wrong = |pair: [LandmarkPoint; 2]| check(&[[at(0), at(0)], pair]).unwrap_err();
         assert_eq!(
             wrong([at(3), at(99)]).to_string(),

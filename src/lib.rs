@@ -24,6 +24,7 @@ pub mod layout;
 pub mod map_file;
 pub mod math;
 pub mod mesh;
+mod mesh_side;
 pub mod monitor;
 pub mod numerics;
 pub mod patchwise;

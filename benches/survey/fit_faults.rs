@@ -5,7 +5,7 @@ use crate::clicks::Random;
 use crate::common::Pair;
 use crate::fit::{COUNTS, Counts, Fit};
 use conemap::landmark_fit::{Finding, Repair};
-use conemap::landmarks::LandmarkId;
+use conemap::landmarks::{LandmarkId, MeshSide};
 use conemap::layout::LandmarkDistances;
 use conemap::mesh::VertexId;
 use conemap::monitor::Silent;
@@ -108,22 +108,22 @@ fn exchanged(landmarks: usize, fit: &Fit, random: &mut Random, named: &mut Count
 
 /// Moves the target of one random pair to another vertex at about the given distance along the surface.
 fn misplaced((landmarks, away): (usize, f64), fit: &Fit, random: &mut Random, named: &mut Counts) {
-    let pair = (random.share() * fit.numbers.len() as f64) as usize;
+    let pair = LandmarkId::from((random.share() * fit.numbers.len() as f64) as usize);
     let distances = LandmarkDistances::new([&fit.meshes[0], &fit.meshes[1]], &fit.landmarks, &mut Silent)
         .expect("nobody stops");
-    let field = distances.field(1, pair.into());
+    let field = distances.field(MeshSide::Target, pair);
     let is = |v: &VertexId| (field[*v] - away).abs() < 0.03 && !fit.landmarks.target.contains(v);
     let places: Vec<VertexId> = fit.meshes[1].vertices().filter(is).collect();
     if places.is_empty() {
         return;
     }
     let mut wrong = fit.clone();
-    wrong.landmarks.target.raw[pair] = places[(random.share() * places.len() as f64) as usize];
+    wrong.landmarks.target[pair] = places[(random.share() * places.len() as f64) as usize];
     let findings = wrong.findings();
     let told = findings.iter().any(|f| f.repair() == Repair::Check { pair });
     let others = findings.iter().any(|f| f.repair() != Repair::Check { pair });
     if !swaps(&findings).is_empty() {
-        println!("not exchanged: {} pair {}, by {away}: {findings:?}", fit.name, fit.numbers[pair]);
+        println!("not exchanged: {} pair {}, by {away}: {findings:?}", fit.name, fit.numbers[pair.index()]);
     }
     named.add(&format!("misplaced by {away}"), landmarks, [told, told && !others, others]);
 }
@@ -131,7 +131,8 @@ fn misplaced((landmarks, away): (usize, f64), fit: &Fit, random: &mut Random, na
 fn count((row, landmarks): (&str, usize), wrong: &Fit, pairs: [usize; 2], named: &mut Counts) {
     let findings = wrong.findings();
     let swaps = swaps(&findings);
-    let first = findings.first().is_some_and(|f| f.repair() == Repair::Swap { pairs });
+    let first =
+        findings.first().is_some_and(|f| f.repair() == Repair::Swap { pairs: pairs.map(LandmarkId::from) });
     if !first {
         let numbers = pairs.map(|k| wrong.numbers[k]);
         println!("not named: {} {row}, pairs {numbers:?}: {findings:?}", wrong.name);
@@ -145,7 +146,7 @@ fn count((row, landmarks): (&str, usize), wrong: &Fit, pairs: [usize; 2], named:
 
 fn swaps(findings: &[Finding]) -> Vec<[usize; 2]> {
     let swap = |finding: &Finding| match finding.repair() {
-        Repair::Swap { pairs } => Some(pairs),
+        Repair::Swap { pairs } => Some(pairs.map(LandmarkId::index)),
         _ => None,
     };
     findings.iter().filter_map(swap).collect()

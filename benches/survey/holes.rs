@@ -6,7 +6,7 @@ use crate::case::Limit;
 use crate::common::{self, Pair};
 use crate::punching::remove_around;
 use conemap::geodesic::distances;
-use conemap::landmarks::Landmarks;
+use conemap::landmarks::{Landmarks, MeshSide};
 use conemap::math::random::SplitMix;
 use conemap::math::scalar::pow;
 use conemap::mesh::check::CheckedMesh;
@@ -292,23 +292,23 @@ fn measured(
             }
         }
     }
-    let of_caps = |side: usize, face: FaceId| sides[side].is_cap[face];
-    let of_holes = |side: usize, face: FaceId| removed[face] && sides[side].is_cap.raw.contains(&true);
+    let of_caps = |side: MeshSide, face: FaceId| sides[side].is_cap[face];
+    let of_holes = |side: MeshSide, face: FaceId| removed[face] && sides[side].is_cap.raw.contains(&true);
     let own =
-        |side: usize, v: VertexId| sides[side].checked.vertex_from_file[v.index()].expect("skin is there");
+        |side: MeshSide, v: VertexId| sides[side].checked.vertex_from_file[v.index()].expect("skin is there");
     Reached {
         certified: result.report.certificate.as_ref().is_some_and(|c| c.bijective),
         energy: result.report.distortion.energy,
         errors: sums.map(|sum| sum / all),
         near: near.map(|sum| sum / close),
         slid: slid.map(|sum| sum / close),
-        hidden: [0, 1].map(|k| {
-            let images = vertex_images(result, sides.map(|side| &side.checked.mesh), k);
-            hidden(closed[k], removed, |v| images[own(k, v)].is_some_and(|f| of_caps(1 - k, f)))
+        hidden: MeshSide::BOTH.map(|side| {
+            let images = vertex_images(result, sides.map(|side| &side.checked.mesh), side);
+            hidden(closed[side], removed, |v| images[own(side, v)].is_some_and(|f| of_caps(side.other(), f)))
         }),
-        hidden_closed: [0, 1].map(|k| {
-            let images = vertex_images(whole, closed, k);
-            hidden(closed[k], removed, |v| images[v].is_some_and(|f| of_holes(1 - k, f)))
+        hidden_closed: MeshSide::BOTH.map(|side| {
+            let images = vertex_images(whole, closed, side);
+            hidden(closed[side], removed, |v| images[v].is_some_and(|f| of_holes(side.other(), f)))
         }),
     }
 }
@@ -344,7 +344,11 @@ impl Depths {
 }
 
 /// The face of the other mesh that holds the image of each vertex of one mesh.
-fn vertex_images(map: &MapResult, meshes: [&SurfaceMesh; 2], side: usize) -> TiVec<VertexId, Option<FaceId>> {
+fn vertex_images(
+    map: &MapResult,
+    meshes: [&SurfaceMesh; 2],
+    side: MeshSide,
+) -> TiVec<VertexId, Option<FaceId>> {
     let correspondence = map.correspondence.as_ref().expect("the relaxed map has its pieces");
     let images = correspondence.vertex_images(meshes, side);
     images.iter().map(|image| image.map(|image| image.face)).collect()

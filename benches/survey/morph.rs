@@ -3,6 +3,7 @@
 
 use crate::arguments::Arguments;
 use crate::case::Case;
+use conemap::landmarks::MeshSide;
 use conemap::math::rigid3::laid_on;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
@@ -43,7 +44,7 @@ fn line(arguments: &Arguments, case: &Case) -> Result<String, String> {
     let input = Case::input(&placed);
     let result = run(input, &arguments.options, &mut Silent).map_err(|e| e.to_string())?;
     let map = result.correspondence.ok_or("the map has no pieces")?;
-    let images = map.vertex_images([input.source, input.target], 0);
+    let images = map.vertex_images([input.source, input.target], MeshSide::Source);
     let places: Option<Vec<DVec3>> =
         images.iter().map(|image| Some(image.as_ref()?.position(input.target))).collect();
     let places = places.ok_or("a vertex has no image")?;

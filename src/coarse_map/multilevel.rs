@@ -10,12 +10,12 @@ use super::mesh_with_coarse::MeshWithCoarse;
 use super::options::MultilevelOptions;
 use super::rim_draws::{BorderLine, RimDrawOptions, border_lines, draws};
 use super::skin::Skin;
-use crate::landmarks::LandmarkId;
+use crate::landmarks::{LandmarkId, MeshSide};
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::Level;
 use crate::mesh::face_weights::{FaceWeight, FaceWeights};
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion, PreviewOf, Silent, Step};
+use crate::monitor::{Cancelled, Monitor, Portion, Silent, Step};
 use crate::registration::patch_fit::OrientedSurface;
 use crate::registration::rigid_patches::{self, MappedLevel, RigidPatchOptions, WeightedLevel};
 use crate::surface_map::MapError;
@@ -149,19 +149,18 @@ impl CoarseMap<'_> {
     }
 
     /// The present level of a mesh with the images of its vertices; `None` where a vertex cannot be located.
-    pub(super) fn placed(&self, of: PreviewOf) -> Option<PlacedLevel<'_>> {
-        let k = match of {
-            PreviewOf::Source => 0,
-            PreviewOf::Target => 1,
-        };
+    pub(super) fn placed(&self, of: MeshSide) -> Option<PlacedLevel<'_>> {
         let present = self.present();
-        let [from, onto] = [k, 1 - k].map(|k| present[k].parametrised());
+        let [from, onto] = [of, of.other()].map(|side| present[side].parametrised());
         let locations = locate(from, onto, &self.surface, &mut Silent).ok()?;
         let image = |at: &Location| barycentric(from, onto, at).position(onto.mesh);
         let images = locations.by_vertex.iter().map(image).collect();
         let [source, target] = present;
-        let level = if k == 0 { source.level } else { target.level };
-        Some(PlacedLevel { level, images, full: self.full[k], onto: self.full[1 - k] })
+        let level = match of {
+            MeshSide::Source => source.level,
+            MeshSide::Target => target.level,
+        };
+        Some(PlacedLevel { level, images, full: self.full[of], onto: self.full[of.other()] })
     }
 
     fn present(&self) -> [PresentLevel; 2] {
@@ -205,7 +204,7 @@ impl CoarseMap<'_> {
         fine: &MapRelaxationOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<(), MapError> {
-        let surfaces = [0, 1].map(|k| OrientedSurface::new(self.full[k]));
+        let surfaces = self.full.map(OrientedSurface::new);
         let surfaces = [&surfaces[0], &surfaces[1]];
         for round in 0..rounds {
             if monitor.wants_result() {
@@ -213,10 +212,10 @@ impl CoarseMap<'_> {
             }
             let share = |round: usize| round as f64 / rounds as f64;
             let part = &mut Portion::new(monitor, share(round), share(round + 1));
-            self.look(|k, seen, constraints| {
+            self.look(|side, seen, constraints| {
                 let patches = &mut Portion::new(part, 0.0, 0.0);
-                let found =
-                    rigid_patches::point_constraints([surfaces[k], surfaces[1 - k]], seen, options, patches)?;
+                let surfaces = [side, side.other()].map(|side| surfaces[side]);
+                let found = rigid_patches::point_constraints(surfaces, seen, options, patches)?;
                 *constraints =
                     found.into_iter().map(|(v, constraint)| (seen.vertices[v], constraint)).collect();
                 Ok(())
@@ -288,9 +287,9 @@ impl CoarseMap<'_> {
             let share = |round: usize| round as f64 / options.rounds as f64;
             let part = &mut Portion::new(monitor, share(round), share(round + 1));
             part.step(Step::default())?;
-            self.look(|k, seen, constraints| {
-                constraints.clone_from(&held[k]);
-                constraints.extend(draws(&lines[k], &lines[1 - k], seen, options.strength));
+            self.look(|side, seen, constraints| {
+                constraints.clone_from(&held[side]);
+                constraints.extend(draws(&lines[side], &lines[side.other()], seen, options.strength));
                 Ok(())
             })?;
             self.lower(fine, part, |_| ())?;
@@ -388,19 +387,19 @@ impl CoarseMap<'_> {
     fn look(
         &mut self,
         mut show: impl FnMut(
-            usize,
+            MeshSide,
             &MappedLevel<'_>,
             &mut Vec<(VertexId, PointConstraint)>,
         ) -> Result<(), Cancelled>,
     ) -> Result<(), Cancelled> {
         let present = self.present();
-        for k in 0..2 {
-            let [from, onto] = [k, 1 - k].map(|k| present[k].parametrised());
-            let [level, other] = [k, 1 - k].map(|k| present[k].weighted());
+        for side in MeshSide::BOTH {
+            let [from, onto] = [side, side.other()].map(|side| present[side].parametrised());
+            let [level, other] = [side, side.other()].map(|side| present[side].weighted());
             let Ok(locations) = locate(from, onto, &self.surface, &mut Silent) else { continue };
             let points = locations.by_vertex.iter().map(|at| barycentric(from, onto, at));
             let seen = MappedLevel::new(level, other, points);
-            show(k, &seen, &mut self.constraints[k])?;
+            show(side, &seen, &mut self.constraints[side])?;
         }
         Ok(())
     }

@@ -4,6 +4,7 @@ use super::landmarked_mesh::LandmarkedMesh;
 use super::multilevel::LevelImages;
 use crate::geodesic::distances;
 use crate::landmark_suggestion::{Spread, farthest_points};
+use crate::landmarks::MeshSide;
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -107,14 +108,16 @@ pub(super) fn with(
     let at = |pair: &OwnPair| SurfacePoint::at_vertex(&full[0].refined.mesh, pair.source);
     let points: [Vec<SurfacePoint>; 2] =
         [pairs.iter().map(at).collect(), pairs.iter().map(|pair| pair.target).collect()];
-    let mut side = |k: usize| {
-        let Ok((mesh, vertices)) = full[k].with_points(inputs[k], &points[k]) else { return Ok(None) };
+    let mut placed = |side: MeshSide| {
+        let with_points = full[side].with_points(inputs[side], &points[side]);
+        let Ok((mesh, vertices)) = with_points else { return Ok(None) };
         monitor.step(Step::default())?;
-        let mesh = mesh.with_room_around(inputs[k], &vertices);
+        let mesh = mesh.with_room_around(inputs[side], &vertices);
         monitor.step(Step::default())?;
         Ok(mesh.ok().map(|mesh| (mesh, vertices)))
     };
-    let (Some((mut source, from)), Some((mut target, onto))) = (side(0)?, side(1)?) else { return Ok(None) };
+    let both = (placed(MeshSide::Source)?, placed(MeshSide::Target)?);
+    let (Some((mut source, from)), Some((mut target, onto))) = both else { return Ok(None) };
     for (s, t) in from.into_iter().zip(onto) {
         if !target.landmarks.contains(&t) {
             source.landmarks.push(s);

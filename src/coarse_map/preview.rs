@@ -4,15 +4,16 @@
 //! is interpolated from those of its face's corners there: near enough to show a pattern, for one search each.
 
 use super::multilevel::{CoarseMap, PlacedLevel};
+use crate::landmarks::MeshSide;
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::surface_index::SurfaceIndex;
 use crate::mesh::{FaceId, VertexId};
-use crate::monitor::{MapPreview, PreviewOf};
+use crate::monitor::MapPreview;
 use glam::DVec3;
 
 impl MapPreview for CoarseMap<'_> {
     /// The image of each vertex of the full mesh with its landmarks on the other mesh, which is scaled to area 1.
-    fn images(&self, of: PreviewOf) -> Option<Vec<DVec3>> {
+    fn images(&self, of: MeshSide) -> Option<Vec<DVec3>> {
         let PlacedLevel { level, images, full, onto } = self.placed(of)?;
         let index = SurfaceIndex::new(&level.mesh);
         let normals = vertex_normals(full);

@@ -101,13 +101,14 @@ mod tests {
     use super::*;
     use crate::demo::list;
     use crate::mesh::FaceId;
+    use crate::mesh_side::MeshSide;
 
     const SMALL: [&str; 3] = ["horse-cat", "poses", "sphere-tetrahedron"];
 
     /// The places of one side's landmarks, by their names.
     struct Places<'a> {
         demo: &'a Demo,
-        side: usize,
+        side: MeshSide,
     }
 
     impl Places<'_> {
@@ -126,7 +127,7 @@ mod tests {
         let [faces, marks] =
             if SMALL.contains(&id) { [1500..15_000, 10..22] } else { [20_000..40_000, 21..34] };
         let marks = if id == "ball-cone" { 14..25 } else { marks };
-        for (mesh, side) in [(&demo.source, 0), (&demo.target, 1)] {
+        for (mesh, side) in [&demo.source, &demo.target].into_iter().zip(MeshSide::BOTH) {
             assert_eq!(mesh.euler_characteristic(), 2, "{id}");
             assert!(is_connected(mesh), "{id}");
             assert!(faces.contains(&mesh.face_count()), "{id}: {}", mesh.face_count());
@@ -186,7 +187,7 @@ mod tests {
     fn species_stand_and_have_what_one_knows_them_by() {
         for id in ["horse-camel", "wolf-cow", "cat-lion"] {
             let demo = check(id);
-            for side in [0, 1] {
+            for side in MeshSide::BOTH {
                 let places = Places { demo: &demo, side };
                 stands(&places);
                 is_symmetric(&places);
@@ -196,7 +197,8 @@ mod tests {
                     let places = Places { demo: &demo, side };
                     places.of("back").y - places.of("withers").y.max(places.of("croup").y)
                 };
-                assert!(hump(0) < 0.0 && hump(1) > 0.25, "{} {}", hump(0), hump(1));
+                let [horse, camel] = MeshSide::BOTH.map(hump);
+                assert!(horse < 0.0 && camel > 0.25, "{horse} {camel}");
             }
         }
     }
@@ -210,7 +212,7 @@ mod tests {
     #[test]
     fn rings_of_landmarks_cut_off_as_much_of_the_ball_as_of_the_cone() {
         let demo = check("ball-cone");
-        let [ball, cone] = [0, 1].map(|side| Places { demo: &demo, side });
+        let [ball, cone] = MeshSide::BOTH.map(|side| Places { demo: &demo, side });
         let highest =
             |places: &Places| places.mesh().positions().iter().map(|p| p.y).fold(f64::MIN, f64::max);
         for places in [&ball, &cone] {
@@ -228,19 +230,19 @@ mod tests {
     #[test]
     fn poses_are_the_poses() {
         let demo = check("horse-gallop");
-        let [rest, gallop] = [0, 1].map(|side| Places { demo: &demo, side });
+        let [rest, gallop] = MeshSide::BOTH.map(|side| Places { demo: &demo, side });
         let reach = |p: &Places| p.of("left fore foot").x - p.of("left hind foot").x;
         assert!(reach(&gallop) > reach(&rest) + 0.5);
         let demo = check("horse-rearing");
-        let [graze, rear] = [0, 1].map(|side| Places { demo: &demo, side });
+        let [graze, rear] = MeshSide::BOTH.map(|side| Places { demo: &demo, side });
         assert!(graze.of("nose").y < graze.of("left elbow").y);
         assert!(rear.of("left fore foot").y > rear.of("left hind foot").y + 0.6);
         let demo = check("figure-running");
-        let [stand, run] = [0, 1].map(|side| Places { demo: &demo, side });
+        let [stand, run] = MeshSide::BOTH.map(|side| Places { demo: &demo, side });
         assert!((stand.of("left heel").y - stand.of("right heel").y).abs() < 0.01);
         assert!(run.of("left toes").z - run.of("right toes").z > 0.5);
         let demo = check("hands");
-        let [open, grasp] = [0, 1].map(|side| Places { demo: &demo, side });
+        let [open, grasp] = MeshSide::BOTH.map(|side| Places { demo: &demo, side });
         let gap = |p: &Places| p.of("thumb tip").distance(p.of("middle tip"));
         assert!(gap(&grasp) < 0.7 * gap(&open), "{} {}", gap(&grasp), gap(&open));
     }

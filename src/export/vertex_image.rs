@@ -1,6 +1,7 @@
 //! Images of vertices, as CSV and JSON.
 
 use crate::mesh::SurfacePoint;
+use crate::mesh_side::MeshSide;
 use glam::DVec3;
 use serde_json::json;
 use std::fmt::Write;
@@ -26,11 +27,11 @@ impl Direction {
         }
     }
 
-    /// The side of the vertices: 0 for the source, 1 for the target.
-    pub fn side(self) -> usize {
+    /// The mesh whose vertices are told.
+    pub fn side(self) -> MeshSide {
         match self {
-            Self::SourceToTarget => 0,
-            Self::TargetToSource => 1,
+            Self::SourceToTarget => MeshSide::Source,
+            Self::TargetToSource => MeshSide::Target,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::reading;
 use crate::mesh::mirror::mirrored_weights;
+use crate::mesh_side::MeshSide;
 use rustc_hash::FxHashMap;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
@@ -9,9 +10,6 @@ use std::collections::BTreeMap;
 
 /// The largest number of pairs; a file with more is refused.
 pub const MAX_PAIRS: usize = 10_000;
-
-/// What the two sides of a pair are called.
-const SIDES: [&str; 2] = ["source", "target"];
 
 /// One side of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -115,13 +113,13 @@ pub enum LandmarkFileError {
     },
     /// The weights of a point are no barycentric coordinates.
     #[error(
-        "landmark pair {} (the first is 1) has barycentric coordinates on the {} that are negative or do not sum to 1: \
+        "landmark pair {} (the first is 1) has barycentric coordinates on the {side} that are negative or do not sum to 1: \
          {weights}",
-        pair + 1, SIDES[side % 2]
+        pair + 1
     )]
     Barycentric {
-        /// 0 the source, 1 the target.
-        side: usize,
+        /// The mesh.
+        side: MeshSide,
         /// The pair, 0-based.
         pair: usize,
         /// The weights as the file gives them.
@@ -148,10 +146,10 @@ pub enum LandmarkFileError {
         radius: String,
     },
     /// Two pairs have the same point.
-    #[error("landmark pairs {} and {} (the first is 1) have the same point of the {}", pairs[0] + 1, pairs[1] + 1, SIDES[side % 2])]
+    #[error("landmark pairs {} and {} (the first is 1) have the same point of the {side}", pairs[0] + 1, pairs[1] + 1)]
     SharedPoint {
-        /// 0 the source, 1 the target.
-        side: usize,
+        /// The mesh.
+        side: MeshSide,
         /// The two pairs, 0-based.
         pairs: [usize; 2],
     },
@@ -212,7 +210,7 @@ fn check_radii(file: &LandmarkFile) -> Result<(), LandmarkFileError> {
 fn check_points(pairs: &[[LandmarkPoint; 2]]) -> Result<(), LandmarkFileError> {
     let mut first: [FxHashMap<_, usize>; 2] = Default::default();
     for (pair, points) in pairs.iter().enumerate() {
-        for (side, point) in points.iter().enumerate() {
+        for (side, point) in MeshSide::BOTH.into_iter().zip(points) {
             if let LandmarkPoint::OnFace { barycentric, .. } = point
                 && !point.is_sound()
             {

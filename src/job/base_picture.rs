@@ -4,6 +4,7 @@
 use super::checked_job::Job;
 use super::taken::TakenMap;
 use crate::base_domain::BaseDomain;
+use crate::landmarks::MeshSide;
 use crate::map_file::FileMesh;
 use crate::mesh::{FaceId, HalfedgeId, Place, SurfaceMesh};
 use crate::pipeline::MapResult;
@@ -45,9 +46,9 @@ impl Job {
     /// The base domain of a result of this job.
     pub fn base_picture(&self, result: &MapResult) -> BasePicture {
         let meshes = [&self.placed.source.mesh, &self.placed.target.mesh];
-        let given = |side: usize, p| self.meshes[side].as_given(p);
+        let given = |side: MeshSide, p| self.meshes[side].as_given(p);
         let placed = [&self.placed.source, &self.placed.target];
-        let checked = |side: usize, f: FaceId| placed[side].face_origin[f];
+        let checked = |side: MeshSide, f: FaceId| placed[side].face_origin[f];
         if let Some(picture) = result
             .flat_layout
             .as_ref()
@@ -56,8 +57,8 @@ impl Job {
             return picture;
         }
         let landmarks = [&self.placed.landmarks.source, &self.placed.landmarks.target];
-        let cones =
-            [0, 1].map(|k| landmarks[k].iter().map(|&v| given(k, meshes[k].positions()[v])).collect());
+        let cones = MeshSide::BOTH
+            .map(|side| landmarks[side].iter().map(|&v| given(side, meshes[side].positions()[v])).collect());
         BasePicture::bare(&result.base.mesh, cones)
     }
 }
@@ -67,7 +68,7 @@ impl TakenMap<'_> {
     pub fn base_picture(&self) -> Option<BasePicture> {
         let layout = self.map().layout.as_ref()?;
         let [source, target] = self.meshes();
-        let given = |side: usize, p| [source, target][side].as_given(p);
+        let given = |side: MeshSide, p| [source, target][side].as_given(p);
         BasePicture::of_layout(layout, [source, target].map(FileMesh::mesh), given, |_, f| f)
     }
 }
@@ -78,11 +79,11 @@ impl BasePicture {
     fn of_layout(
         layout: &FlatLayout,
         meshes: [&SurfaceMesh; 2],
-        given: impl Fn(usize, DVec3) -> DVec3,
-        checked: impl Fn(usize, FaceId) -> FaceId,
+        given: impl Fn(MeshSide, DVec3) -> DVec3,
+        checked: impl Fn(MeshSide, FaceId) -> FaceId,
     ) -> Option<Self> {
         let base = &layout.base.mesh;
-        let shape = |side: usize| -> Option<BaseShape> {
+        let shape = |side: MeshSide| -> Option<BaseShape> {
             let drawing: &FlatDrawing = &layout.drawings[side];
             let place = |at: Place| given(side, at.surface_point(meshes[side]).position(meshes[side]));
             let cones: Option<Vec<DVec3>> = drawing.cones(base).into_iter().map(|at| at.map(place)).collect();
@@ -95,7 +96,7 @@ impl BasePicture {
             let points = drawing.vertices.iter().map(|vertex| place(vertex.place)).collect();
             Some(BaseShape { points, patches, borders, middles, ..BaseShape::bare(base, cones?) })
         };
-        Some(Self::with_shapes(base, [shape(0)?, shape(1)?]))
+        Some(Self::with_shapes(base, [shape(MeshSide::Source)?, shape(MeshSide::Target)?]))
     }
 
     /// A base domain with its cones at these places, without patches.

@@ -2,6 +2,7 @@
 
 use super::checked_job::Job;
 use super::taken::TakenMap;
+use crate::landmarks::MeshSide;
 use crate::mesh::VertexId;
 use crate::monitor::Monitor;
 use crate::pipeline::{self, Lead, PipelineError, SimplificationStage};
@@ -18,22 +19,22 @@ pub struct CarriedSimplification {
 }
 
 impl Job {
-    /// One of the mapped meshes, 0 for the source, on its way to its landmarks, and on the other one, where the map has its vertices.
+    /// One of the mapped meshes on its way to its landmarks, and on the other one, where the map has its vertices.
     /// Coordinates are those of the checked meshes.
     ///
     /// # Errors
     /// As [`pipeline::carried_simplification`].
     pub fn carried_simplification(
         &self,
-        from: usize,
+        own: MeshSide,
         map: &TakenMap<'_>,
         lead: Lead,
         monitor: &mut dyn Monitor,
     ) -> Result<CarriedSimplification, PipelineError> {
-        let [own, other] = [from, 1 - from];
+        let other = own.other();
         let mesh = self.mapped_meshes()[own];
         let landmarks = self.landmark_vertices();
-        let positions = self.positions();
+        let mut positions = self.positions();
         let places = map.vertex_places(own);
         let mut carried: TiVec<VertexId, DVec3> = positions[own].iter().copied().collect();
         for (place, found) in carried.iter_mut().zip(&places) {
@@ -45,8 +46,7 @@ impl Job {
         }
         let shape = mesh.with_positions(carried.clone());
         let stages = pipeline::carried_simplification([mesh, &shape], landmarks[own], lead, monitor)?;
-        let mut shapes = [positions[own].clone(), carried.raw];
-        shapes.rotate_left(own);
-        Ok(CarriedSimplification { stages, positions: shapes })
+        positions[other] = carried.raw;
+        Ok(CarriedSimplification { stages, positions })
     }
 }

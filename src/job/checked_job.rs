@@ -208,9 +208,9 @@ impl Job {
         [0, 1].map(|k| placed[k].mesh.positions().iter().map(|&p| self.meshes[k].as_given(p)).collect())
     }
 
-    /// A face of the mapped source (0) or the mapped target (1) as its number in the triangulated file.
-    pub fn file_face(&self, side: usize, face: FaceId) -> FaceId {
-        let placed = if side == 0 { &self.placed.source } else { &self.placed.target };
+    /// A face of one of the mapped meshes as its number in the triangulated file.
+    pub fn file_face(&self, side: MeshSide, face: FaceId) -> FaceId {
+        let placed = [&self.placed.source, &self.placed.target][side];
         self.meshes[side].checked().file_from_face(placed.face_origin[face])
     }
 
@@ -222,7 +222,7 @@ impl Job {
     /// What the user should know of the repairs; nothing of a mesh that was good as given.
     fn repair_warnings(&self) -> Vec<Warning> {
         let mut warnings = Vec::new();
-        for (side, repair) in [MeshSide::Source, MeshSide::Target].into_iter().zip(&self.repairs) {
+        for (side, repair) in MeshSide::BOTH.into_iter().zip(&self.repairs) {
             if repair.fault.is_some() {
                 warnings.push(Warning::Repaired { side, changes: repair.sentence() });
             }
@@ -250,11 +250,10 @@ impl Job {
             .map(|remark| Warning::LandmarkFile { remark: remark.to_string() })
     }
 
-    /// The number in its file of a vertex of the source (side 0) or of the target as they are mapped; one that was made for a landmark
-    /// keeps its number.
-    fn file_numbers(&self) -> impl Fn(usize, usize) -> usize + use<> {
+    /// The number in its file of a vertex of one of the mapped meshes; one that was made for a landmark keeps its number.
+    fn file_numbers(&self) -> impl Fn(MeshSide, usize) -> usize + use<> {
         let numbers = self.meshes.each_ref().map(|mesh| mesh.checked().file_from_vertex());
-        move |side, v| numbers[side].get(v).copied().unwrap_or(v)
+        move |side: MeshSide, v: usize| numbers[side].get(v).copied().unwrap_or(v)
     }
 
     fn input(&self) -> MapInput<'_> {

@@ -1,7 +1,7 @@
 //! Landmarks as the map holds them: a point that lies nearly on a corner or an edge of its face is held there.
 
 use crate::io::landmark_file::{LandmarkFile, LandmarkPoint};
-use crate::landmarks::PlacedLandmarks;
+use crate::landmarks::{MeshSide, PlacedLandmarks};
 use crate::map_file::FileMesh;
 use crate::mesh::{FaceId, SurfacePoint};
 
@@ -11,7 +11,7 @@ const MOVED: f64 = 1e-12;
 /// Tells the landmarks that were moved onto a corner or an edge where they are held, on the files' meshes, so that a map file and
 /// its proof speak of the same points.
 pub(super) fn tell(landmarks: &mut LandmarkFile, placed: &PlacedLandmarks, meshes: [&FileMesh; 2]) {
-    for (side, placed) in [&placed.source, &placed.target].into_iter().enumerate() {
+    for (side, placed) in MeshSide::BOTH.into_iter().zip([&placed.source, &placed.target]) {
         let file = meshes[side];
         let mesh = file.mesh();
         let size = mesh.area().sqrt();

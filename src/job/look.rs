@@ -3,6 +3,7 @@
 use crate::export::skin::Skin;
 use crate::io::appearance::{self, Appearance};
 use crate::io::{LookRemark, read_mesh};
+use crate::landmarks::MeshSide;
 use crate::map_file::FileMesh;
 use crate::mesh::dressing::{Giver, carried};
 use crate::mesh::look::Look;
@@ -22,8 +23,8 @@ pub struct LookFiles<'a> {
 /// The look that a map carries.
 #[derive(Clone, Debug, Default)]
 pub struct MapLook {
-    /// The side that gives it, 0 for the source, and its look; `None` where neither mesh has colours.
-    giver: Option<(usize, Look)>,
+    /// The mesh that gives it, and its look; `None` where neither mesh has colours.
+    giver: Option<(MeshSide, Look)>,
     /// What cannot be used of the looks of source and target.
     pub remarks: [Vec<LookRemark>; 2],
 }
@@ -33,7 +34,7 @@ impl MapLook {
     /// nothing.
     pub(super) fn read(meshes: [&FileMesh; 2], files: [LookFiles<'_>; 2]) -> Self {
         let mut map_look = Self::default();
-        for side in [1, 0] {
+        for side in [MeshSide::Target, MeshSide::Source] {
             let (look, remarks) = look_of(meshes[side], files[side]);
             map_look.remarks[side] = remarks;
             if let Some(look) = look.filter(Look::is_coloured) {

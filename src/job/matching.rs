@@ -143,7 +143,7 @@ pub fn match_meshes(
     monitor: &mut dyn Monitor,
 ) -> Result<Matched, JobError> {
     let placed = |side: MeshSide| -> Result<Insertion, JobError> {
-        let mesh = meshes[side as usize];
+        let mesh = meshes[side];
         check_side(mesh, side, &given.pairs)?;
         Ok(insert(&mesh.mesh, &points(mesh, side, &given.pairs)?)
             .map_err(crate::landmarks::LandmarkError::from)?)
@@ -195,7 +195,7 @@ struct InFileNumbers<'a> {
 impl InFileNumbers<'_> {
     /// The file's number of a vertex; given landmarks inside faces, which no file numbers, are named by their pair elsewhere.
     fn number(&self, side: MeshSide, v: VertexId) -> usize {
-        self.numbers[side as usize].get(v.index()).copied().unwrap_or(v.index())
+        self.numbers[side].get(v.index()).copied().unwrap_or(v.index())
     }
 
     fn verdict(&self, verdict: &Verdict) -> VerdictReport {

@@ -3,6 +3,7 @@
 use super::taken::TakenMap;
 use crate::export::glb::GlbError;
 use crate::export::morph_glb::{MorphingMesh, morphing_source};
+use crate::landmarks::MeshSide;
 use crate::map_file::FileMesh;
 use crate::math::rigid3::{Rigid3, laid_on};
 use crate::mesh::{FaceId, VertexId};
@@ -108,7 +109,12 @@ impl TakenMap<'_> {
             let vertex = self.meshes()[0].vertex_number(VertexId::from(v));
             place.map(|p| laid.apply(draw[1](p))).ok_or(MorphError::NoImage { vertex })
         };
-        let end = self.vertex_places(0).into_iter().enumerate().map(image).collect::<Result<Shape, _>>()?;
+        let end = self
+            .vertex_places(MeshSide::Source)
+            .into_iter()
+            .enumerate()
+            .map(image)
+            .collect::<Result<Shape, _>>()?;
         let points = MorphPoints { positions: &begins, images: &ends, triangles, faces };
         let way = way(&mesh, &end, points, monitor)?;
         Ok(DrawnWay { begins, ends, laid, way })

@@ -5,6 +5,7 @@ use crate::export;
 use crate::export::glb::GlbError;
 use crate::export::skin::Skin;
 use crate::export::vertex_image::{self, Direction, PointImage};
+use crate::landmarks::MeshSide;
 use crate::map_file::{self, FileMesh, MapFile};
 use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint};
@@ -187,8 +188,8 @@ impl<'a> TakenMap<'a> {
             }
             OutputKind::BaseDomain => export::obj::mesh(&self.map.base.mesh),
             OutputKind::LayoutSvg => self.map.layout.as_ref().map(export::layout::svg).unwrap_or_default(),
-            OutputKind::LayoutSourceObj => self.layout_obj(0),
-            OutputKind::LayoutTargetObj => self.layout_obj(1),
+            OutputKind::LayoutSourceObj => self.layout_obj(MeshSide::Source),
+            OutputKind::LayoutTargetObj => self.layout_obj(MeshSide::Target),
         })
     }
 
@@ -212,12 +213,12 @@ impl<'a> TakenMap<'a> {
         let from = direction.side();
         let images = self.map.correspondence.vertex_images(self.surfaces(), from);
         let images = self.meshes[from].checked().by_file_vertex(&images.raw);
-        images.into_iter().map(|image| image.flatten().map(|point| self.told(1 - from, point))).collect()
+        images.into_iter().map(|image| image.flatten().map(|point| self.told(from.other(), point))).collect()
     }
 
-    /// The place of each vertex of a mapped mesh, 0 for the source, on the other one, not mirrored; `None` for one that no piece has.
-    pub fn vertex_places(&self, from: usize) -> Vec<Option<DVec3>> {
-        let onto = self.meshes[1 - from];
+    /// The place of each vertex of a mapped mesh on the other one, not mirrored; `None` for one that no piece has.
+    pub fn vertex_places(&self, from: MeshSide) -> Vec<Option<DVec3>> {
+        let onto = self.meshes[from.other()];
         let images = self.map.correspondence.vertex_images(self.surfaces(), from);
         let place = |point: SurfacePoint| onto.as_given(point.position(onto.mesh()));
         images.into_iter().map(|image| image.map(place)).collect()
@@ -229,14 +230,13 @@ impl<'a> TakenMap<'a> {
         let locator = PointLocator::new(self.surfaces(), &self.map.correspondence);
         let image = |point: &SurfacePoint| {
             let point = self.meshes[from].on_mesh(*point);
-            let image = if from == 0 { locator.image(point) } else { locator.preimage(point) };
-            self.told(1 - from, image)
+            self.told(from.other(), locator.carried(from, point))
         };
         points.iter().map(image).collect()
     }
 
     /// A point of one of the mapped meshes as its file tells it.
-    fn told(&self, side: usize, point: SurfacePoint) -> PointImage {
+    fn told(&self, side: MeshSide, point: SurfacePoint) -> PointImage {
         let mesh = self.meshes[side];
         PointImage {
             point: mesh.on_file(point),
@@ -318,7 +318,7 @@ impl<'a> TakenMap<'a> {
         write(&positions, polygons)
     }
 
-    fn layout_obj(&self, side: usize) -> Vec<u8> {
+    fn layout_obj(&self, side: MeshSide) -> Vec<u8> {
         let Some(layout) = &self.map.layout else { return Vec::new() };
         let (mesh, drawing) = (self.meshes[side], &layout.drawings[side]);
         export::layout::obj(layout, drawing, |v| {
@@ -330,7 +330,7 @@ impl<'a> TakenMap<'a> {
     /// meshes, not mirrored.
     pub fn patch_lines(&self) -> [Vec<Vec<DVec3>>; 2] {
         let Some(layout) = &self.map.layout else { return [Vec::new(), Vec::new()] };
-        [0, 1].map(|side| {
+        MeshSide::BOTH.map(|side| {
             let mesh = self.meshes[side];
             let lines = layout.drawings[side].side_lines(&layout.base.mesh);
             let place = |v: &u32| {

@@ -9,15 +9,18 @@ use crate::landmarks::MeshSide;
 pub fn compare_names(file: &LandmarkFile, given: [&str; 2]) -> Vec<Remark> {
     let named =
         [&file.source, &file.target].map(|name| name.as_deref().filter(|name| !stem(name).is_empty()));
-    let is_other = |k: usize, other: usize| named[k].is_some_and(|name| stem(name) != stem(given[other]));
-    if [0, 1].iter().all(|&k| named[k].is_some() && is_other(k, k) && !is_other(k, 1 - k)) {
+    let is_other =
+        |side: MeshSide, than: MeshSide| named[side].is_some_and(|name| stem(name) != stem(given[than]));
+    let is_exchanged =
+        |side: &MeshSide| named[*side].is_some() && is_other(*side, *side) && !is_other(*side, side.other());
+    if MeshSide::BOTH.iter().all(is_exchanged) {
         return vec![Remark::ExchangedMeshes];
     }
-    let remark = |(k, side): (usize, MeshSide)| {
-        let named = named[k].filter(|_| is_other(k, k))?.to_owned();
-        Some(Remark::OtherMesh { side, named, given: given[k].to_owned() })
+    let remark = |side: MeshSide| {
+        let named = named[side].filter(|_| is_other(side, side))?.to_owned();
+        Some(Remark::OtherMesh { side, named, given: given[side].to_owned() })
     };
-    [MeshSide::Source, MeshSide::Target].into_iter().enumerate().filter_map(remark).collect()
+    MeshSide::BOTH.into_iter().filter_map(remark).collect()
 }
 
 /// The name of a file without folders and ending, in small letters.

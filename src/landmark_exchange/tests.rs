@@ -125,8 +125,7 @@ fn assert_reads_back(bodies: &[CheckedMesh; 2]) {
                 assert_same(&read, &file, meshes, format);
             }
             if format.holds() != Holds::Both {
-                let write =
-                    |side: MeshSide| write_side(format, &file, surfaces[side as usize], side).unwrap();
+                let write = |side: MeshSide| write_side(format, &file, surfaces[side], side).unwrap();
                 let bytes = [write(MeshSide::Source), write(MeshSide::Target)];
                 let given = bytes.each_ref().map(|bytes| GivenFile { name: "side", bytes });
                 let read = read_pairs(&given, surfaces).unwrap();

@@ -69,7 +69,7 @@ fn marks(file: &LandmarkFile, surface: Surface<'_>, side: MeshSide) -> Result<Su
     let mark = |(pair, point): (usize, SurfacePoint)| {
         let on_file = surface.mesh.on_file(in_file(surface.mesh, point));
         // Weights as they were given, without what rounding makes of them.
-        let weights = match file.pairs[pair][side as usize] {
+        let weights = match file.pairs[pair][side] {
             LandmarkPoint::OnFace { barycentric, .. } => barycentric,
             LandmarkPoint::Vertex(_) => on_file.barycentric,
         };

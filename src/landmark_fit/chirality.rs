@@ -9,6 +9,7 @@ use crate::layout::LandmarkDistances;
 use crate::math::scalar::ln;
 use crate::mesh::SurfaceMesh;
 use glam::DVec3;
+use typed_index_collections::{TiSlice, TiVec};
 
 /// Standard deviation of the log ratios of a group's six distances at which the group has half the weight. Groups across a bent joint
 /// have 0.3 and more, those of two animals' heads 0.1.
@@ -22,19 +23,19 @@ pub(super) fn agreement(
     meshes: [&SurfaceMesh; 2],
     landmarks: &Landmarks,
     distances: &LandmarkDistances,
-    target_of: &[usize],
+    target_of: &TiSlice<LandmarkId, LandmarkId>,
 ) -> f64 {
-    let source: Vec<DVec3> = landmarks.source.iter().map(|&v| meshes[0].positions()[v]).collect();
-    let target =
-        target_of.iter().map(|&j| meshes[1].positions()[landmarks.target[LandmarkId::from(j)]]).collect();
+    let source: TiVec<LandmarkId, DVec3> =
+        landmarks.source.iter().map(|&v| meshes[0].positions()[v]).collect();
+    let target = target_of.iter().map(|&j| meshes[1].positions()[landmarks.target[j]]).collect();
     let places = [source, target];
     let mut votes = Votes::default();
-    for i in 0..landmarks.len() {
+    for i in target_of.keys() {
         let near = nearest(distances, target_of, i);
         for (k, &a) in near.iter().enumerate() {
             for (l, &b) in near[..k].iter().enumerate() {
                 for &c in &near[..l] {
-                    let groups = [0, 1].map(|s| [i, a, b, c].map(|j| places[s][j]));
+                    let groups = places.each_ref().map(|places| [i, a, b, c].map(|j| places[j]));
                     let likeness = likeness(&groups);
                     votes.add(groups.map(|group| likeness * volume(&group)));
                 }
@@ -55,7 +56,7 @@ fn volume(group: &[DVec3; 4]) -> f64 {
 /// The similarity of two groups: 1 for similar ones, 1/2 where the log ratios of distances deviate by [`RIGID`].
 fn likeness(groups: &[[DVec3; 4]; 2]) -> f64 {
     let ratios = EDGES.map(|[i, j]| {
-        let [s, t] = [0, 1].map(|side: usize| groups[side][i].distance(groups[side][j]));
+        let [s, t] = groups.each_ref().map(|group| group[i].distance(group[j]));
         if s > 0.0 && t > 0.0 { ln(s / t) } else { f64::INFINITY }
     });
     let mean = ratios.iter().sum::<f64>() / 6.0;

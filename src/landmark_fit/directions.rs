@@ -1,18 +1,18 @@
 //! The directions in which shortest paths to the other landmarks leave each landmark.
 
-use crate::landmarks::Landmarks;
+use crate::landmarks::{LandmarkId, Landmarks, MeshSide};
 use crate::layout::LandmarkDistances;
 use crate::math::triangle::angle_at;
 use crate::mesh::{SurfaceMesh, VertexId};
 use std::f64::consts::TAU;
-use typed_index_collections::TiSlice;
+use typed_index_collections::{TiSlice, TiVec};
 
 /// Places on each edge of a landmark's ring, as shares of its length, through which paths are tried. Chosen by hand.
 const SHARES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
-/// Directions by side, landmark and goal: angles around the landmark, counter-clockwise, scaled to 2 pi.
+/// Directions by mesh, landmark and goal: angles around the landmark, counter-clockwise, scaled to 2 pi.
 pub(super) struct Directions {
-    angles: [Vec<Vec<f64>>; 2],
+    angles: [TiVec<LandmarkId, TiVec<LandmarkId, f64>>; 2],
 }
 
 impl Directions {
@@ -21,17 +21,18 @@ impl Directions {
         landmarks: &Landmarks,
         distances: &LandmarkDistances,
     ) -> Self {
-        let sides = [&landmarks.source, &landmarks.target];
-        let angles = [0, 1].map(|s| {
-            let ring = |v: &VertexId| Ring::new(meshes[s], *v);
-            let fields = || (0..distances.landmark_count()).map(|j| distances.field(s, j.into()));
-            sides[s].iter().map(ring).map(|ring| fields().map(|f| ring.direction(f)).collect()).collect()
+        let vertices = [&landmarks.source, &landmarks.target];
+        let angles = MeshSide::BOTH.map(|side| {
+            let ring = |v: &VertexId| Ring::new(meshes[side], *v);
+            let fields = || vertices[side].keys().map(|goal| distances.field(side, goal));
+            let directions = |ring: Ring| fields().map(|field| ring.direction(field)).collect();
+            vertices[side].iter().map(ring).map(directions).collect()
         });
         Self { angles }
     }
 
     /// The angles, around landmark `at`, from the direction to `first` counter-clockwise to the directions to all landmarks; 0 to 2 pi.
-    pub(super) fn turns(&self, side: usize, at: usize, first: usize) -> Vec<f64> {
+    pub(super) fn turns(&self, side: MeshSide, at: LandmarkId, first: LandmarkId) -> TiVec<LandmarkId, f64> {
         let around = &self.angles[side][at];
         let begin = around[first];
         around.iter().map(|a| if *a < begin { a - begin + TAU } else { a - begin }).collect()

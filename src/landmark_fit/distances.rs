@@ -1,11 +1,12 @@
 //! Comparison of the distances between landmarks on source and target, by the logarithms of their ratios.
 
 use super::finding::Finding;
-use crate::landmarks::{LandmarkId, Landmarks};
+use crate::landmarks::{LandmarkId, Landmarks, MeshSide};
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::{exp, ln, max, min};
 use crate::mesh::VertexId;
 use crate::monitor::{Cancelled, Monitor, Step};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 /// Added to distances before ratios are taken, in units of the root of the area, so that near landmarks count little. Chosen by hand.
 const SOFTENING: f64 = 0.08;
@@ -30,45 +31,42 @@ const PLACE_DISTANCE: f64 = 0.3;
 pub(super) struct Fit<'a> {
     distances: &'a LandmarkDistances,
     /// For each pair the number of the pair whose target it has.
-    pub(super) target_of: Vec<usize>,
+    pub(super) target_of: TiVec<LandmarkId, LandmarkId>,
     /// The target of each pair as given.
-    targets: &'a [VertexId],
+    targets: &'a TiSlice<LandmarkId, VertexId>,
     /// Whether each pair was found misplaced and is left out of the comparison.
-    pub(super) left_out: Vec<bool>,
+    pub(super) left_out: TiVec<LandmarkId, bool>,
     /// Softened logarithms of the source's distances between landmarks.
-    source: Vec<Vec<f64>>,
+    source: TiVec<LandmarkId, TiVec<LandmarkId, f64>>,
     /// Softened logarithms of the target's distances, by landmark and vertex.
-    target: Vec<Vec<f64>>,
+    target: TiVec<LandmarkId, TiVec<VertexId, f64>>,
 }
 
 impl<'a> Fit<'a> {
     pub(super) fn new(landmarks: &'a Landmarks, distances: &'a LandmarkDistances) -> Self {
-        let n = landmarks.len();
+        let all = || landmarks.source.keys();
         let log = |d: f64| ln(d + SOFTENING);
-        let between = |i: usize, j: usize| log(distances.between([i, j].map(LandmarkId::from))[0]);
-        let source = (0..n).map(|i| (0..n).map(|j| between(i, j)).collect()).collect();
-        let field = |j: usize| distances.field(1, j.into()).iter();
-        let target = (0..n).map(|j| field(j).map(|&d| log(d)).collect()).collect();
+        let between = |i, j| log(distances.between([i, j])[MeshSide::Source]);
+        let source = all().map(|i| all().map(|j| between(i, j)).collect()).collect();
+        let field = |j| distances.field(MeshSide::Target, j).iter();
+        let target = all().map(|j| field(j).map(|&d| log(d)).collect()).collect();
         Self {
             distances,
-            target_of: (0..n).collect(),
-            targets: &landmarks.target.raw,
-            left_out: vec![false; n],
+            target_of: all().collect(),
+            targets: &landmarks.target,
+            left_out: ti_vec![false; landmarks.len()],
             source,
             target,
         }
     }
 
-    fn len(&self) -> usize {
-        self.target_of.len()
-    }
-
-    /// The misfit of a pair whose target is at `place`: the mean absolute log ratio of its distances to the others; near pairs have larger
-    /// weights.
-    fn misfit(&self, pair: usize, place: VertexId, left_out: usize) -> f64 {
+    /// The misfit of a pair whose target is at `place`: the mean absolute log ratio of its distances to the others but `without`; near pairs
+    /// have larger weights.
+    fn misfit(&self, pair: LandmarkId, place: VertexId, without: Option<LandmarkId>) -> f64 {
         let (mut sum, mut total) = (0.0, 0.0);
-        for j in (0..self.len()).filter(|&j| j != pair && j != left_out && !self.left_out[j]) {
-            let (s, t) = (self.source[pair][j], self.target[self.target_of[j]][place.index()]);
+        let counts = |&j: &LandmarkId| j != pair && Some(j) != without && !self.left_out[j];
+        for j in self.target_of.keys().filter(counts) {
+            let (s, t) = (self.source[pair][j], self.target[self.target_of[j]][place]);
             // The lesser of both distances, as a weight.
             let weight = 1.0 / exp(s.min(t));
             sum += weight * (s - t).abs();
@@ -77,23 +75,21 @@ impl<'a> Fit<'a> {
         sum / total
     }
 
-    fn place(&self, pair: usize) -> VertexId {
+    fn place(&self, pair: LandmarkId) -> VertexId {
         self.targets[self.target_of[pair]]
     }
 
     /// Mean misfit of two pairs as it is and with their targets exchanged; `None` where the exchange raises the misfit of either pair by
     /// more than [`WORSE`], or lowers it little and another place fits one of them much better.
-    pub(super) fn exchanged(&self, [a, b]: [usize; 2]) -> Option<[f64; 2]> {
+    pub(super) fn exchanged(&self, [a, b]: [LandmarkId; 2]) -> Option<[f64; 2]> {
         let both = [(a, b), (b, a)];
-        let now = both.map(|(i, j)| self.misfit(i, self.place(i), j));
-        let then = both.map(|(i, j)| self.misfit(i, self.place(j), j));
+        let now = both.map(|(i, j)| self.misfit(i, self.place(i), Some(j)));
+        let then = both.map(|(i, j)| self.misfit(i, self.place(j), Some(j)));
         let worse = max(then[0] - now[0], then[1] - now[1]);
         let settled = |k: usize| {
             let (i, j) = both[k];
-            let best = (0..self.target[0].len())
-                .map(VertexId::from)
-                .map(|v| self.misfit(i, v, j))
-                .fold(f64::INFINITY, min);
+            let places = self.target[i].keys();
+            let best = places.map(|v| self.misfit(i, v, Some(j))).fold(f64::INFINITY, min);
             then[k] - best < PLACE_GAIN || best > PLACE_SHARE * then[k]
         };
         let means = [now, then].map(|pair| 0.5 * (pair[0] + pair[1]));
@@ -103,8 +99,10 @@ impl<'a> Fit<'a> {
 
     /// The pair of largest misfit for which a place far from its target fits much better.
     pub(super) fn worst_misplaced(&self, monitor: &mut dyn Monitor) -> Result<Option<Finding>, Cancelled> {
-        let now = |pair: usize| self.misfit(pair, self.place(pair), usize::MAX);
-        let mut doubtful: Vec<(f64, usize)> = (0..self.len())
+        let now = |pair: LandmarkId| self.misfit(pair, self.place(pair), None);
+        let mut doubtful: Vec<(f64, LandmarkId)> = self
+            .target_of
+            .keys()
             .filter(|&pair| !self.left_out[pair])
             .map(|pair| (now(pair), pair))
             .filter(|(misfit, _)| *misfit > PLACE_GAIN)
@@ -119,16 +117,15 @@ impl<'a> Fit<'a> {
         Ok(None)
     }
 
-    fn better_place(&self, pair: usize, now: f64) -> Option<Finding> {
-        let vertices = (0..self.target[0].len()).map(VertexId::from);
-        let placed = vertices.map(|v| (self.misfit(pair, v, usize::MAX), v));
+    fn better_place(&self, pair: LandmarkId, now: f64) -> Option<Finding> {
+        let placed = self.target[pair].keys().map(|v| (self.misfit(pair, v, None), v));
         let (then, place) = placed.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let away = |j: usize| self.distances.field(1, self.target_of[j].into())[place];
-        let others = (0..self.len()).filter(|&j| j != pair);
+        let away = |j: LandmarkId| self.distances.field(MeshSide::Target, self.target_of[j])[place];
+        let others = self.target_of.keys().filter(|&j| j != pair);
         let near = others.min_by(|&i, &j| away(i).total_cmp(&away(j)))?;
         let distance = away(pair);
         // With few landmarks some place fits well by chance.
-        let gain = PLACE_GAIN + PLACE_GAIN_OF_FEW / self.len() as f64;
+        let gain = PLACE_GAIN + PLACE_GAIN_OF_FEW / self.target_of.len() as f64;
         let clear = now - then > gain && then < PLACE_SHARE * now && distance > PLACE_DISTANCE;
         clear.then_some(Finding::Misplaced { pair, misfit: [now, then], distance, place, near })
     }

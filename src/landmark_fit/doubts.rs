@@ -5,10 +5,11 @@ use super::distances::Fit;
 use super::exchange::Exchange;
 use super::finding::Finding;
 use super::{chirality, orders};
-use crate::landmarks::Landmarks;
+use crate::landmarks::{LandmarkId, Landmarks};
 use crate::layout::LandmarkDistances;
 use crate::mesh::SurfaceMesh;
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
+use typed_index_collections::TiSlice;
 
 /// Least number of landmarks with which a set may be called mirrored. Chosen by hand.
 const LEAST_FOR_ORDERS: usize = 6;
@@ -37,7 +38,7 @@ pub fn landmark_fit(
     let directions = Directions::new(meshes, landmarks, distances);
     monitor.step(Step::default())?;
     let mut fit = Fit::new(landmarks, distances);
-    let mirrored = |target_of: &[usize]| {
+    let mirrored = |target_of: &TiSlice<LandmarkId, LandmarkId>| {
         let orders = orders::agreement(&directions, distances, target_of);
         let places = chirality::agreement(meshes, landmarks, distances, target_of);
         let mean = (2.0 * orders + places) / 3.0;

@@ -9,10 +9,11 @@ use super::directions::Directions;
 use super::distances::Fit;
 use super::finding::Finding;
 use super::orders::{Vote, pair_vote};
-use crate::landmarks::LandmarkId;
+use crate::landmarks::{LandmarkId, MeshSide};
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::{max, min};
 use crate::monitor::{Cancelled, Monitor, Step};
+use typed_index_collections::{TiSlice, TiVec};
 
 /// Added to the lesser distance of a landmark x to a and b in its weight, in units of d(a, b). Chosen by hand.
 const SOFTENING: f64 = 0.3;
@@ -51,7 +52,7 @@ struct Opinion {
 /// The distances and directions from which both votes are taken.
 pub(super) struct Exchange<'a> {
     /// Distances between landmarks on source and target.
-    distances: [Vec<Vec<f64>>; 2],
+    distances: [TiVec<LandmarkId, TiVec<LandmarkId, f64>>; 2],
     directions: &'a Directions,
     /// 1, or -1 in a mirrored set, whose orders are all reversed.
     handedness: f64,
@@ -59,19 +60,22 @@ pub(super) struct Exchange<'a> {
 
 impl<'a> Exchange<'a> {
     pub(super) fn new(distances: &LandmarkDistances, directions: &'a Directions, handedness: f64) -> Self {
-        let n = distances.landmark_count();
-        let between = |s: usize, i: usize, j: usize| {
-            let [i, j] = [i, j].map(LandmarkId::from);
-            0.5 * (distances.between([i, j])[s] + distances.between([j, i])[s])
-        };
-        let row = |s: usize, i: usize| (0..n).map(|j| between(s, i, j)).collect();
-        let distances = [0, 1].map(|s| (0..n).map(|i| row(s, i)).collect());
+        let all = || (0..distances.landmark_count()).map(LandmarkId::from);
+        let between =
+            |side: MeshSide, i, j| 0.5 * (distances.between([i, j])[side] + distances.between([j, i])[side]);
+        let row = |side, i| all().map(|j| between(side, i, j)).collect();
+        let distances = MeshSide::BOTH.map(|side| all().map(|i| row(side, i)).collect());
         Self { distances, directions, handedness }
     }
 
     /// The votes of the other landmarks on two pairs; `None` where the agreement is certainly above `limit`. `target_of` gives the pair
     /// whose target each pair has.
-    fn opinion(&self, target_of: &[usize], pair: [usize; 2], limit: f64) -> Option<Opinion> {
+    fn opinion(
+        &self,
+        target_of: &TiSlice<LandmarkId, LandmarkId>,
+        pair: [LandmarkId; 2],
+        limit: f64,
+    ) -> Option<Opinion> {
         let Vote { agreement: unanimity, strength } = self.distance_vote(target_of, pair);
         let sides = unanimity * strength / (strength + WEAK_SIDES);
         if 0.5 * (sides - 1.0) > limit {
@@ -89,12 +93,12 @@ impl<'a> Exchange<'a> {
     }
 
     /// The vote of the distances; its strength is the mean product of both sides' u in size.
-    fn distance_vote(&self, target_of: &[usize], [a, b]: [usize; 2]) -> Vote {
+    fn distance_vote(&self, target_of: &TiSlice<LandmarkId, LandmarkId>, [a, b]: [LandmarkId; 2]) -> Vote {
         let [source, target] = &self.distances;
         let (onto_a, onto_b) = (&target[target_of[a]], &target[target_of[b]]);
         let apart = [source[a][b], onto_a[target_of[b]]];
         let (mut sum, mut agree, mut total) = (0.0, 0.0, 0.0);
-        for (x, &y) in target_of.iter().enumerate().filter(|(x, _)| *x != a && *x != b) {
+        for (x, &y) in target_of.iter_enumerated().filter(|(x, _)| *x != a && *x != b) {
             let u = (source[a][x] - source[b][x]) / apart[0];
             let product = u * (onto_a[y] - onto_b[y]) / apart[1];
             let near = min(source[a][x] + onto_a[y], source[b][x] + onto_b[y]);
@@ -137,7 +141,7 @@ impl<'a> Exchange<'a> {
         for b in 0..count {
             let fraction = (b * b) as f64 / (count * count) as f64;
             monitor.step(Step { fraction, residual: None })?;
-            for pairs in (0..b).map(|a| [a, b]) {
+            for pairs in (0..b).map(|a| [a, b].map(LandmarkId::from)) {
                 // The misfit costs most, so it is asked last.
                 if let Some(opinion) = called_for(pairs) {
                     monitor.step(Step { fraction, residual: None })?;
@@ -159,7 +163,7 @@ impl<'a> Exchange<'a> {
     }
 
     /// The sum of the doubts (agreements below [`DOUBTFUL`]) that are left when two targets are exchanged.
-    fn doubts(&self, target_of: &[usize], [a, b]: [usize; 2]) -> f64 {
+    fn doubts(&self, target_of: &TiSlice<LandmarkId, LandmarkId>, [a, b]: [LandmarkId; 2]) -> f64 {
         let mut exchanged = target_of.to_vec();
         exchanged.swap(a, b);
         let doubt =
@@ -178,6 +182,6 @@ fn clear(landmarks: usize) -> f64 {
 }
 
 /// All pairs `[a, b]` with a < b.
-fn pairs(count: usize) -> impl Iterator<Item = [usize; 2]> {
-    (0..count).flat_map(|b| (0..b).map(move |a| [a, b]))
+fn pairs(count: usize) -> impl Iterator<Item = [LandmarkId; 2]> {
+    (0..count).flat_map(|b| (0..b).map(move |a| [a, b].map(LandmarkId::from)))
 }

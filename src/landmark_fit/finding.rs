@@ -1,9 +1,10 @@
 //! A doubt about landmark pairs, with its numbers, its sentence for the user and its repair.
 
+use crate::landmarks::LandmarkId;
 use crate::mesh::VertexId;
 use std::fmt;
 
-/// A doubt about landmark pairs; pairs are numbered from 0.
+/// A doubt about landmark pairs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Finding {
@@ -15,7 +16,7 @@ pub enum Finding {
     /// Two pairs have each other's target.
     Swapped {
         /// The pairs.
-        pairs: [usize; 2],
+        pairs: [LandmarkId; 2],
         /// Vote of the other landmarks, from -1, where the targets fit exchanged, to 1, where they fit as they are.
         agreement: f64,
         /// Mean misfit of both pairs' distances (absolute log ratio) as it is and with the targets exchanged; of near
@@ -25,7 +26,7 @@ pub enum Finding {
     /// One pair's target is far from the place that fits the other pairs.
     Misplaced {
         /// The pair.
-        pair: usize,
+        pair: LandmarkId,
         /// Mean misfit of its distances (absolute log ratio) as it is and at the best place.
         misfit: [f64; 2],
         /// Distance of its target to the best place, in units of the root of the target's area.
@@ -33,7 +34,7 @@ pub enum Finding {
         /// The best place: a vertex of the (coarse) target.
         place: VertexId,
         /// The pair whose target is nearest to that place, itself apart.
-        near: usize,
+        near: LandmarkId,
     },
 }
 
@@ -44,14 +45,14 @@ pub enum Repair {
     /// Exchange the targets of two pairs.
     Swap {
         /// The pairs.
-        pairs: [usize; 2],
+        pairs: [LandmarkId; 2],
     },
     /// Mirror the target mesh, or exchange left and right in all pairs.
     MirrorTarget,
     /// Look at a pair.
     Check {
         /// The pair.
-        pair: usize,
+        pair: LandmarkId,
     },
 }
 
@@ -67,9 +68,9 @@ impl Finding {
 
     /// One sentence for the user, with the pairs by name; pairs without a name are counted from 1.
     pub fn sentence(&self, labels: &[String]) -> String {
-        let name = |pair: usize| match labels.get(pair).filter(|label| !label.is_empty()) {
-            Some(label) => format!("{} ({label})", pair + 1),
-            None => (pair + 1).to_string(),
+        let name = |pair: LandmarkId| match labels.get(pair.index()).filter(|label| !label.is_empty()) {
+            Some(label) => format!("{} ({label})", pair.index() + 1),
+            None => (pair.index() + 1).to_string(),
         };
         match *self {
             Self::Mirrored { .. } => {
@@ -105,8 +106,9 @@ mod tests {
     #[test]
     fn findings_name_pairs_and_repairs() {
         let labels = ["nose", "tail"].map(String::from);
-        let swapped = Finding::Swapped { pairs: [0, 1], agreement: -0.9, misfit: [0.5, 0.1] };
-        assert_eq!(swapped.repair(), Repair::Swap { pairs: [0, 1] });
+        let pairs = [LandmarkId(0), LandmarkId(1)];
+        let swapped = Finding::Swapped { pairs, agreement: -0.9, misfit: [0.5, 0.1] };
+        assert_eq!(swapped.repair(), Repair::Swap { pairs });
         let sentence = swapped.sentence(&labels);
         assert!(sentence.contains("1 (nose)") && sentence.contains("2 (tail)"), "{sentence}");
         assert!(swapped.to_string().contains("pairs 1 and 2"), "{swapped}");

@@ -4,11 +4,12 @@
 //! each other's target, the orders around either of the two that contain the other are reversed.
 
 use super::directions::Directions;
-use crate::landmarks::{LandmarkId, Landmarks};
+use crate::landmarks::{LandmarkId, Landmarks, MeshSide};
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::{max, min};
 use crate::mesh::SurfaceMesh;
 use std::f64::consts::TAU;
+use typed_index_collections::{TiSlice, TiVec};
 
 /// Landmarks around each landmark whose order is compared. Chosen by hand.
 pub(super) const NEIGHBOURS: usize = 8;
@@ -22,18 +23,22 @@ pub fn order_agreement(
     landmarks: &Landmarks,
     distances: &LandmarkDistances,
 ) -> f64 {
-    let target_of: Vec<usize> = (0..landmarks.len()).collect();
+    let target_of: TiVec<LandmarkId, LandmarkId> = landmarks.source.keys().collect();
     agreement(&Directions::new(meshes, landmarks, distances), distances, &target_of)
 }
 
 /// The agreement of the orders, where `target_of` gives the pair whose target each pair has.
-pub(super) fn agreement(directions: &Directions, distances: &LandmarkDistances, target_of: &[usize]) -> f64 {
+pub(super) fn agreement(
+    directions: &Directions,
+    distances: &LandmarkDistances,
+    target_of: &TiSlice<LandmarkId, LandmarkId>,
+) -> f64 {
     let mut votes = Votes::default();
-    for i in 0..target_of.len() {
+    for i in target_of.keys() {
         let near = nearest(distances, target_of, i);
         for (k, &a) in near.iter().enumerate() {
-            let source = directions.turns(0, i, a);
-            let target = directions.turns(1, target_of[i], target_of[a]);
+            let source = directions.turns(MeshSide::Source, i, a);
+            let target = directions.turns(MeshSide::Target, target_of[i], target_of[a]);
             for (l, &b) in near[..k].iter().enumerate() {
                 for &c in &near[..l] {
                     let onto = [target[target_of[b]], target[target_of[c]]];
@@ -56,12 +61,16 @@ pub(super) struct Vote {
 
 /// The vote of the orders around either of two landmarks that contain the other; its strength is the mean weight of a triple
 /// in radians. `target_of` gives the pair whose target each pair has.
-pub(super) fn pair_vote(directions: &Directions, target_of: &[usize], [a, b]: [usize; 2]) -> Vote {
+pub(super) fn pair_vote(
+    directions: &Directions,
+    target_of: &TiSlice<LandmarkId, LandmarkId>,
+    [a, b]: [LandmarkId; 2],
+) -> Vote {
     let mut votes = Votes::default();
     for (at, to) in [(a, b), (b, a)] {
-        let source = directions.turns(0, at, to);
-        let target = directions.turns(1, target_of[at], target_of[to]);
-        let others: Vec<usize> = (0..target_of.len()).filter(|x| *x != a && *x != b).collect();
+        let source = directions.turns(MeshSide::Source, at, to);
+        let target = directions.turns(MeshSide::Target, target_of[at], target_of[to]);
+        let others: Vec<LandmarkId> = target_of.keys().filter(|x| *x != a && *x != b).collect();
         for (k, &x) in others.iter().enumerate() {
             for &y in &others[..k] {
                 let orders =
@@ -74,10 +83,16 @@ pub(super) fn pair_vote(directions: &Directions, target_of: &[usize], [a, b]: [u
 }
 
 /// The landmarks nearest to one on both meshes together, the nearest first.
-pub(super) fn nearest(distances: &LandmarkDistances, target_of: &[usize], i: usize) -> Vec<usize> {
-    let between = |side: usize, ends: [usize; 2]| distances.between(ends.map(LandmarkId::from))[side];
-    let sum = |j: usize| between(0, [i, j]) + between(1, [target_of[i], target_of[j]]);
-    let mut near: Vec<usize> = (0..target_of.len()).filter(|&j| j != i).collect();
+pub(super) fn nearest(
+    distances: &LandmarkDistances,
+    target_of: &TiSlice<LandmarkId, LandmarkId>,
+    i: LandmarkId,
+) -> Vec<LandmarkId> {
+    let sum = |j: LandmarkId| {
+        let target = distances.between([target_of[i], target_of[j]])[MeshSide::Target];
+        distances.between([i, j])[MeshSide::Source] + target
+    };
+    let mut near: Vec<LandmarkId> = target_of.keys().filter(|&j| j != i).collect();
     near.sort_by(|&j, &k| sum(j).total_cmp(&sum(k)).then(j.cmp(&k)));
     near.truncate(NEIGHBOURS);
     near

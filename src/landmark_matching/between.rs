@@ -4,6 +4,7 @@
 //! source is the point farthest from the others; the target has two places with nearly the same distances, one on either side of the body.
 
 use super::shape::Shape;
+use crate::landmarks::MeshSide;
 use crate::math::scalar::ln;
 use crate::mesh::VertexId;
 
@@ -22,20 +23,21 @@ pub(super) fn between(shapes: [&Shape; 2], pairs: &[[usize; 2]]) -> Vec<[VertexI
         return Vec::new();
     }
     let [source, target] = shapes;
-    let distance = |side: usize, pair: &[usize; 2], v: VertexId| shapes[side].marks[pair[side]].field[v];
-    let nearest = |side: usize, v: VertexId| {
+    let distance = |side: MeshSide, pair: &[usize; 2], v: VertexId| shapes[side].marks[pair[side]].field[v];
+    let nearest = |side: MeshSide, v: VertexId| {
         pairs.iter().map(|pair| distance(side, pair, v)).fold(f64::INFINITY, f64::min)
     };
     let far = source.level.mesh.vertices().filter(|&v| source.may(v));
-    let Some(from) = far.max_by(|a, b| nearest(0, *a).total_cmp(&nearest(0, *b))) else { return Vec::new() };
+    let remote = |v: &VertexId| nearest(MeshSide::Source, *v);
+    let Some(from) = far.max_by(|a, b| remote(a).total_cmp(&remote(b))) else { return Vec::new() };
     let misfit = |v: VertexId| {
         let ratio = |pair: &[usize; 2]| {
-            let [s, t] = [distance(0, pair, from), distance(1, pair, v)];
+            let [s, t] = [distance(MeshSide::Source, pair, from), distance(MeshSide::Target, pair, v)];
             ln((s + SOFTENING) / (t + SOFTENING)).abs()
         };
         pairs.iter().map(ratio).sum::<f64>() / pairs.len() as f64
     };
-    let may = |v: &VertexId| target.may(*v) && nearest(1, *v) > 0.0;
+    let may = |v: &VertexId| target.may(*v) && nearest(MeshSide::Target, *v) > 0.0;
     let mut order: Vec<(f64, VertexId)> =
         target.level.mesh.vertices().filter(may).map(|v| (misfit(v), v)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

@@ -5,6 +5,7 @@ use super::judge::Judged;
 use super::pair::{MatchedPair, PairOrigin};
 use super::search::Assignment;
 use super::shape::Shape;
+use crate::landmarks::MeshSide;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use glam::DVec3;
 use typed_index_collections::TiVec;
@@ -79,9 +80,9 @@ impl Candidate {
             + UNMATCHED * unmatched
             + ORDERS * (1.0 - assignment.agreement)
             + roles(&assignment);
-        let mesh = |side: usize| shapes[side].in_units_of_mesh(&images.levels[side].mesh);
-        let picture =
-            CoarsePicture { source: mesh(0), target: mesh(1), target_from_source: images.target_from_source };
+        let [source, target] =
+            MeshSide::BOTH.map(|side| shapes[side].in_units_of_mesh(&images.levels[side].mesh));
+        let picture = CoarsePicture { source, target, target_from_source: images.target_from_source };
         let between = assignment.between.map(|[s, t]| MatchedPair {
             source: shapes[0].on_mesh(s),
             target: shapes[1].on_mesh(t),

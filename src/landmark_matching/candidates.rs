@@ -4,7 +4,7 @@ use super::between::{LEAST_TO_PLACE, between};
 use super::options::MatchOptions;
 use super::search::{Assignment, Tables};
 use super::symmetry::equivariant;
-use crate::landmarks::LEAST_LANDMARKS;
+use crate::landmarks::{LEAST_LANDMARKS, MeshSide};
 
 /// Candidates with the same pairs of main tips, at most. Chosen by hand.
 const SAME_MAIN: usize = 2;
@@ -18,10 +18,11 @@ pub(super) fn chosen(
 ) -> Vec<Assignment> {
     let shapes = tables.shapes;
     all.retain(|assignment| assignment.pairs.len() >= LEAST_TO_PLACE);
-    let is_main = |side: usize, k: usize| shapes[side].marks[k].persistence >= options.main_persistence;
+    let is_main =
+        |side: MeshSide, mark: usize| shapes[side].marks[mark].persistence >= options.main_persistence;
     let main_pairs = |assignment: &Assignment| {
-        let pairs = assignment.pairs.iter().filter(|[s, t]| is_main(0, *s) && is_main(1, *t));
-        let mut pairs: Vec<[usize; 2]> = pairs.copied().collect();
+        let of_main = |pair: &&[usize; 2]| MeshSide::BOTH.iter().all(|&side| is_main(side, pair[side]));
+        let mut pairs: Vec<[usize; 2]> = assignment.pairs.iter().filter(of_main).copied().collect();
         pairs.sort_unstable();
         pairs
     };

@@ -2,6 +2,7 @@
 
 use super::roles::to_sides;
 use super::search::{Assignment, Tables};
+use crate::landmarks::MeshSide;
 
 /// Largest mean log ratio of the distances to the limbs at which twins may go to twins: those of a head do not go to those of a tail.
 /// Chosen by hand.
@@ -19,16 +20,16 @@ pub(super) fn with_twins(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignme
     if limbs.is_empty() {
         return Vec::new();
     }
-    let of_side = [0, 1].map(|side: usize| limbs.iter().map(|limb| limb[side]).collect::<Vec<_>>());
+    let limbs_of = MeshSide::BOTH.map(|side| limbs.iter().map(|limb| limb[side]).collect::<Vec<_>>());
     let on_limbs: Vec<[usize; 2]> = limbs.iter().flat_map(|[[a, b], [x, y]]| [[*a, *x], [*b, *y]]).collect();
-    let ordered = |side: usize, [a, b]: [usize; 2]| {
-        let side_of = |mark: usize| to_sides(tables.shapes[side], &of_side[side], mark);
-        if side_of(a) < side_of(b) { [b, a] } else { [a, b] }
+    let ordered = |side: MeshSide, [a, b]: [usize; 2]| {
+        let to_sides = |mark: usize| to_sides(tables.shapes[side], &limbs_of[side], mark);
+        if to_sides(a) < to_sides(b) { [b, a] } else { [a, b] }
     };
     let mut found: Vec<(f64, Vec<[usize; 2]>)> = Vec::new();
     for &twins in &source.twins {
         for &others in &target.twins {
-            let ([a, b], [x, y]) = (ordered(0, twins), ordered(1, others));
+            let ([a, b], [x, y]) = (ordered(MeshSide::Source, twins), ordered(MeshSide::Target, others));
             let misfit = [[a, x], [b, y]].map(|pair| tables.mean_misfit(pair, &on_limbs));
             let middle =
                 source.between(tables.shapes[0], twins).zip(target.between(tables.shapes[1], others));
@@ -99,7 +100,7 @@ mod tests {
     }
 
     /// The ends that are twins, in order.
-    fn twin_ends(tables: &Tables<'_>, side: usize) -> Vec<usize> {
+    fn twin_ends(tables: &Tables<'_>, side: MeshSide) -> Vec<usize> {
         let ends = ends(tables.shapes[side]);
         let mut twins: Vec<usize> = tables.roles[side].twins.iter().flatten().map(|&k| ends[k]).collect();
         twins.sort_unstable();
@@ -113,7 +114,7 @@ mod tests {
         let moved = mesh.with_positions(mesh.positions().iter().map(|&p| 7.0 * (turn * p)).collect());
         let shapes = [shape(&mesh), shape(&moved)];
         let tables = Tables::new([&shapes[0], &shapes[1]], &MatchOptions::default());
-        for side in 0..2 {
+        for side in MeshSide::BOTH {
             assert_eq!(twin_ends(&tables, side), [6, 7], "{:?}", tables.roles[side]);
             let ends = ends(&shapes[side]);
             let nose = ends.iter().position(|&end| end == 5).unwrap();
@@ -127,10 +128,11 @@ mod tests {
         let shapes = [shape(&mesh), shape(onto)];
         let tables = Tables::new([&shapes[0], &shapes[1]], &MatchOptions::default());
         let ends = [ends(&shapes[0]), ends(&shapes[1])];
-        let mark = |side: usize, end: usize| ends[side].iter().position(|&e| e == end).unwrap();
+        let mark = |side: MeshSide, end: usize| ends[side].iter().position(|&e| e == end).unwrap();
+        let pair = |end, onto| [mark(MeshSide::Source, end), mark(MeshSide::Target, onto)];
         // The nose begins on an ear.
-        let mut pairs: Vec<[usize; 2]> = (0..5).map(|end| [mark(0, end), mark(1, limb(end))]).collect();
-        pairs.push([mark(0, 5), mark(1, 6)]);
+        let mut pairs: Vec<[usize; 2]> = (0..5).map(|end| pair(end, limb(end))).collect();
+        pairs.push(pair(5, 6));
         let from = tables.assignment(&pairs);
         assert_eq!([from.twins, from.mixed], [0, 1]);
         let found = with_twins(&tables, &from);

@@ -1,5 +1,6 @@
 //! The input of a matching.
 
+use crate::landmarks::MeshSide;
 use crate::mesh::{SurfaceMesh, VertexId};
 use typed_index_collections::TiSlice;
 
@@ -36,8 +37,8 @@ impl<'a> MatchInput<'a> {
         [self.source, self.target]
     }
 
-    /// Whether a vertex of a side (0 for the source, 1 for the target) may be a landmark.
-    pub(super) fn may(&self, side: usize, v: VertexId) -> bool {
+    /// Whether a vertex of one mesh may be a landmark.
+    pub(super) fn may(&self, side: MeshSide, v: VertexId) -> bool {
         [self.may_mark.source, self.may_mark.target][side].is_none_or(|may| may[v])
     }
 }

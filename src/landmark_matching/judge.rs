@@ -5,6 +5,7 @@ use super::shape::Shape;
 use crate::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use crate::coarse_map::multilevel::LevelImages;
 use crate::coarse_map::{CoarseMapError, LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse};
+use crate::landmarks::MeshSide;
 use crate::mesh::{SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion};
 use crate::surface_map::MapError;
@@ -26,11 +27,11 @@ pub(super) fn judge(
     options: &MatchOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<Judged>, Cancelled> {
-    let side = |k: usize| {
-        let vertices: Vec<VertexId> = pairs.iter().map(|pair| pair[k]).collect();
-        LandmarkedMesh::new(&shapes[k].level.mesh, &vertices)
+    let landmarked = |side: MeshSide| {
+        let vertices: Vec<VertexId> = pairs.iter().map(|pair| pair[side]).collect();
+        LandmarkedMesh::new(&shapes[side].level.mesh, &vertices)
     };
-    let (Ok(source), Ok(target)) = (side(0), side(1)) else { return Ok(None) };
+    let [Ok(source), Ok(target)] = MeshSide::BOTH.map(landmarked) else { return Ok(None) };
     let full = [source, target];
     let vertices = options.judge_vertices.max(LEAST_PER_LANDMARK * pairs.len());
     let mut coarse = |k: usize| {
@@ -62,7 +63,7 @@ pub(super) fn judge(
 
 /// Mean difference of a point's and its image's mean distances to their surfaces, in units of the root of the area.
 fn remoteness(shapes: [&Shape; 2], full: &[LandmarkedMesh; 2], images: &LevelImages) -> f64 {
-    let at = |side: usize, v: VertexId| {
+    let at = |side: MeshSide, v: VertexId| {
         let origin = full[side].refined.vertex_origin[images.levels[side].vertices[v]];
         value_at(shapes[side], origin)
     };
@@ -71,8 +72,8 @@ fn remoteness(shapes: [&Shape; 2], full: &[LandmarkedMesh; 2], images: &LevelIma
     let difference = |v: VertexId| {
         let SurfacePoint { face, barycentric } = images.target_from_source[v];
         let corners = target.mesh.triangles()[face];
-        let image: f64 = (0..3).map(|k| barycentric[k] * at(1, corners[k])).sum();
-        (at(0, v) - image).abs()
+        let image: f64 = (0..3).map(|k| barycentric[k] * at(MeshSide::Target, corners[k])).sum();
+        (at(MeshSide::Source, v) - image).abs()
     };
     let sum: f64 = source.mesh.vertices().map(|v| areas[v] * difference(v)).sum();
     sum / areas.iter().sum::<f64>()

@@ -16,6 +16,7 @@ use super::search::{Assignment, Tables, assignments};
 use super::shape::{Body, Shape};
 use super::sharpening::sharpen;
 use super::verdict::{Verdict, verdict};
+use crate::landmarks::MeshSide;
 use crate::mesh::VertexId;
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 
@@ -74,11 +75,11 @@ pub fn match_landmarks(
 ) -> Result<LandmarkMatch, MatchError> {
     monitor.enter(Stage::Matching);
     check(input)?;
-    let given = |side: usize| -> Vec<VertexId> { input.given.iter().map(|pair| pair[side]).collect() };
+    let given = MeshSide::BOTH.map(|side| input.given.iter().map(|pair| pair[side]).collect::<Vec<_>>());
     let half = 0.5 * LOOKED;
-    let source = Body { mesh: input.source, given: &given(0), may_mark: input.may_mark.source };
+    let source = Body { mesh: input.source, given: &given[0], may_mark: input.may_mark.source };
     let source = Shape::new(source, options, &mut Portion::new(monitor, 0.0, half))?;
-    let target = Body { mesh: input.target, given: &given(1), may_mark: input.may_mark.target };
+    let target = Body { mesh: input.target, given: &given[1], may_mark: input.may_mark.target };
     let target = Shape::new(target, options, &mut Portion::new(monitor, half, LOOKED))?;
     let shapes = [&source, &target];
     let tables = Tables::new(shapes, options);
@@ -95,7 +96,7 @@ pub fn match_landmarks(
 }
 
 fn check(input: MatchInput<'_>) -> Result<(), MatchError> {
-    for (side, mesh) in [input.source, input.target].into_iter().enumerate() {
+    for (side, mesh) in MeshSide::BOTH.into_iter().zip(input.meshes()) {
         for (pair, ends) in input.given.iter().enumerate() {
             let (vertex, vertices) = (ends[side].index(), mesh.vertex_count());
             if vertex >= vertices {
@@ -122,7 +123,7 @@ impl Search<'_> {
     fn judge(&mut self, assignment: &Assignment, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
         self.judged += 1;
         let vertices =
-            |pair: &[usize; 2]| [0, 1].map(|side: usize| self.shapes[side].marks[pair[side]].vertex);
+            |pair: &[usize; 2]| MeshSide::BOTH.map(|side| self.shapes[side].marks[pair[side]].vertex);
         let pairs = assignment.pairs.iter().map(vertices).chain(assignment.between);
         let pairs: Vec<[VertexId; 2]> = pairs.collect();
         let Some(judged) = judge(self.shapes, &pairs, self.options, monitor)? else { return Ok(false) };

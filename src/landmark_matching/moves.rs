@@ -5,7 +5,7 @@
 
 use super::between::between;
 use super::search::{Assignment, Tables};
-use crate::landmarks::LEAST_LANDMARKS;
+use crate::landmarks::{LEAST_LANDMARKS, MeshSide};
 
 /// A tip may be replaced by one of the same body within this distance, in units of the root of the area. Chosen by hand.
 const NEAR: f64 = 0.45;
@@ -19,13 +19,13 @@ const FEW: usize = 5;
 pub(super) fn moves(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
     let given = tables.shapes[0].given;
     let pairs = &from.pairs;
-    let free = |side: usize| {
+    let free = |side: MeshSide| {
         let shape = tables.shapes[side];
         (shape.given..shape.marks.len()).filter(move |&k| pairs.iter().all(|pair| pair[side] != k))
     };
     let mut changed: Vec<Vec<[usize; 2]>> = Vec::new();
     for k in given..pairs.len() {
-        for side in 0..2 {
+        for side in MeshSide::BOTH {
             for mark in free(side).filter(|&m| tables.shapes[side].distance([pairs[k][side], m]) < NEAR) {
                 let mut next = pairs.clone();
                 next[k][side] = mark;
@@ -38,8 +38,8 @@ pub(super) fn moves(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
             changed.push(next);
         }
     }
-    for s in free(0) {
-        for t in free(1) {
+    for s in free(MeshSide::Source) {
+        for t in free(MeshSide::Target) {
             if tables.mean_misfit([s, t], pairs) < FITS {
                 changed.push(pairs.iter().copied().chain([[s, t]]).collect());
             }

@@ -5,6 +5,7 @@ use super::orders::agreement;
 use super::reflection::{Reflection, keeps_sides};
 use super::roles::{Roles, kept};
 use super::shape::Shape;
+use crate::landmarks::MeshSide;
 use crate::math::scalar::{ln, min};
 use crate::mesh::VertexId;
 
@@ -19,7 +20,7 @@ pub(super) struct Assignment {
     pub(super) unmatched_cost: f64,
     /// Share of the cyclic orders that are the same on both bodies, 0 to 1; 1 where there are none.
     pub(super) agreement: f64,
-    /// Main tips without a partner, by side.
+    /// Main tips without a partner, by mesh.
     pub(super) unmatched: [usize; 2],
     /// Whether it takes left and right of one body to those of the other; given pairs are taken to do so.
     pub(super) keeps_sides: bool,
@@ -77,9 +78,9 @@ impl<'a> Tables<'a> {
         let [n, m] = shapes.map(|shape| shape.marks.len());
         let difference = (0..n).map(|s| (0..m).map(|t| difference(s, t)).collect()).collect();
         let main = shapes.map(|shape| shape.main(options));
-        let reflections = [0, 1].map(|side: usize| Reflection::all_of(shapes[side], &main[side]));
+        let reflections = MeshSide::BOTH.map(|side| Reflection::all_of(shapes[side], &main[side]));
         let roles =
-            [0, 1].map(|side: usize| Roles::new(shapes[side], reflections[side].first(), &main[side]));
+            MeshSide::BOTH.map(|side| Roles::new(shapes[side], reflections[side].first(), &main[side]));
         Self { shapes, main, reflections, roles, log_distance, difference }
     }
 
@@ -99,7 +100,7 @@ impl<'a> Tables<'a> {
         let mut partial = Partial::of_given(self);
         let given = self.shapes[0].given;
         pairs[given..].iter().for_each(|&pair| partial.join(self, pair));
-        for side in 0..2 {
+        for side in MeshSide::BOTH {
             for &mark in &self.main[side] {
                 if !partial.has(side, mark) {
                     partial.leave(self, side, mark);
@@ -156,22 +157,24 @@ impl Partial {
         next
     }
 
-    fn without(&self, tables: &Tables<'_>, side: usize, mark: usize) -> Self {
+    fn without(&self, tables: &Tables<'_>, side: MeshSide, mark: usize) -> Self {
         let mut next = self.clone();
         next.leave(tables, side, mark);
         next
     }
 
-    fn leave(&mut self, tables: &Tables<'_>, side: usize, mark: usize) {
+    fn leave(&mut self, tables: &Tables<'_>, side: MeshSide, mark: usize) {
         self.unmatched_cost += min(tables.shapes[side].marks[mark].persistence, MOST_UNMATCHED);
         self.unmatched[side] += 1;
     }
 
     fn finished(self, tables: &Tables<'_>) -> Assignment {
         // Lesser tips lie so near each other on a head that their orders are unreliable, and right pairs of ears could cost more.
-        let is_clear =
-            |side: usize, k: usize| k < tables.shapes[side].given || tables.main[side].contains(&k);
-        let clear = self.pairs.iter().copied().filter(|[s, t]| is_clear(0, *s) || is_clear(1, *t));
+        let is_clear = |side: MeshSide, mark: usize| {
+            mark < tables.shapes[side].given || tables.main[side].contains(&mark)
+        };
+        let of_clear = |pair: &[usize; 2]| MeshSide::BOTH.iter().any(|&side| is_clear(side, pair[side]));
+        let clear = self.pairs.iter().copied().filter(of_clear);
         let clear: Vec<[usize; 2]> = clear.collect();
         let [twins, mixed] = kept(tables.roles.each_ref(), &self.pairs);
         Assignment {
@@ -198,7 +201,7 @@ impl Partial {
             + UNMATCHED * self.unmatched_cost
     }
 
-    fn has(&self, side: usize, mark: usize) -> bool {
+    fn has(&self, side: MeshSide, mark: usize) -> bool {
         self.pairs.iter().any(|pair| pair[side] == mark)
     }
 }
@@ -207,8 +210,8 @@ impl Partial {
 pub(super) fn assignments(tables: &Tables<'_>, options: &MatchOptions) -> Vec<Assignment> {
     let given = tables.shapes[0].given;
     let mut beam = vec![Partial::of_given(tables)];
-    for (side, mains) in tables.main.iter().enumerate() {
-        for &mark in mains {
+    for side in MeshSide::BOTH {
+        for &mark in &tables.main[side] {
             beam = beam.iter().flat_map(|partial| step(tables, partial, side, mark, options)).collect();
             beam.sort_by(|a, b| a.cost(given).total_cmp(&b.cost(given)));
             beam.truncate(options.beam);
@@ -222,22 +225,25 @@ pub(super) fn assignments(tables: &Tables<'_>, options: &MatchOptions) -> Vec<As
 fn step(
     tables: &Tables<'_>,
     partial: &Partial,
-    side: usize,
+    side: MeshSide,
     mark: usize,
     options: &MatchOptions,
 ) -> Vec<Partial> {
     if partial.has(side, mark) {
         return vec![partial.clone()];
     }
-    let other = tables.shapes[1 - side];
+    let other = tables.shapes[side.other()];
     let mut next = vec![partial.without(tables, side, mark)];
-    for partner in (other.given..other.marks.len()).filter(|&k| !partial.has(1 - side, k)) {
+    for partner in (other.given..other.marks.len()).filter(|&k| !partial.has(side.other(), k)) {
         let is_main = other.marks[partner].persistence >= options.main_persistence;
         // The source's main tips have been decided when those of the target come.
-        if (is_main && side == 1) || (!is_main && partial.lesser >= options.lesser_partners) {
+        if (is_main && side == MeshSide::Target) || (!is_main && partial.lesser >= options.lesser_partners) {
             continue;
         }
-        let pair = if side == 0 { [mark, partner] } else { [partner, mark] };
+        let pair = match side {
+            MeshSide::Source => [mark, partner],
+            MeshSide::Target => [partner, mark],
+        };
         let mut joined = partial.with(tables, pair);
         joined.lesser += usize::from(!is_main);
         next.push(joined);

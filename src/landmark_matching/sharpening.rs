@@ -8,6 +8,7 @@ use super::candidate::Candidate;
 use super::input::MatchInput;
 use super::pair::PairOrigin;
 use crate::geodesic::distances;
+use crate::landmarks::MeshSide;
 use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
@@ -24,8 +25,8 @@ pub(super) fn sharpen(
     candidates: &mut [Candidate],
     monitor: &mut dyn Monitor,
 ) -> Result<(), Cancelled> {
-    let sides = [(input.source, input.may_mark.source), (input.target, input.may_mark.target)];
-    for (side, (mesh, may_mark)) in sides.into_iter().enumerate() {
+    let may_mark = [input.may_mark.source, input.may_mark.target];
+    for (side, from) in MeshSide::BOTH.into_iter().zip([0.0, 0.5]) {
         let at = |candidate: &Candidate, k: usize| {
             let pair = candidate.pairs[k];
             [pair.source, pair.target][side]
@@ -36,8 +37,8 @@ pub(super) fn sharpen(
             .collect();
         ends.sort_unstable();
         ends.dedup();
-        let half = &mut Portion::new(monitor, 0.5 * side as f64, 0.5 * (side + 1) as f64);
-        let fine = Fine::new(mesh, &ends, may_mark, half)?;
+        let half = &mut Portion::new(monitor, from, from + 0.5);
+        let fine = Fine::new(input.meshes()[side], &ends, may_mark[side], half)?;
         for candidate in candidates.iter_mut() {
             let before: Vec<VertexId> = (0..candidate.pairs.len()).map(|k| at(candidate, k)).collect();
             let mut after = before.clone();

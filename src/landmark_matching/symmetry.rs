@@ -17,14 +17,14 @@ pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) ->
         for middle in &middles {
             let on_middle = middle.iter().map(|&[s, t]| [source.middle[s], target.middle[t]]);
             let fixed: Vec<[usize; 2]> = given.iter().copied().chain(on_middle).collect();
-            let sides = (0..1_usize << pairing.len()).map(|turned| {
-                let swap = |k: usize, side: usize| side ^ (turned >> k & 1);
+            let turns = (0..1_usize << pairing.len()).map(|turned| {
+                let swap = |k: usize, flank: usize| flank ^ (turned >> k & 1);
                 let both = pairing.iter().enumerate().flat_map(|(k, &[s, t])| {
-                    [0, 1].map(|side| [source.pairs[s][side], target.pairs[t][swap(k, side)]])
+                    [0, 1].map(|flank| [source.pairs[s][flank], target.pairs[t][swap(k, flank)]])
                 });
                 tables.assignment(&fixed.iter().copied().chain(both).collect::<Vec<_>>())
             });
-            found.extend(sides.min_by(|a, b| a.full_cost().total_cmp(&b.full_cost())));
+            found.extend(turns.min_by(|a, b| a.full_cost().total_cmp(&b.full_cost())));
         }
     }
     // A limb that only one body has costs nothing.

@@ -103,7 +103,9 @@ fn question(input: MatchInput<'_>, candidates: &[Candidate], rival: usize) -> Op
     let (best, other) = (&candidates[0], &candidates[rival]);
     let may = |question: &Question| {
         let Question { source, targets, .. } = *question;
-        input.may(0, source) && targets.iter().all(|&v| input.may(1, v)) && targets[0] != targets[1]
+        input.may(MeshSide::Source, source)
+            && targets.iter().all(|&v| input.may(MeshSide::Target, v))
+            && targets[0] != targets[1]
     };
     let marks = [best, other].map(|candidate| &candidate.assignment.pairs);
     // Both candidates may have the same tip at slightly different vertices: so marks are compared, not vertices.

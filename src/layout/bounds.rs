@@ -58,7 +58,7 @@ impl Bounds {
 
     /// Whether the refined meshes may have this many vertices.
     pub fn has_room_for(&self, vertices: [usize; 2]) -> bool {
-        (0..2).all(|side| vertices[side] <= self.vertices[side])
+        vertices.iter().zip(&self.vertices).all(|(count, most)| count <= most)
     }
 }
 

@@ -6,7 +6,7 @@ use super::drawing_fault::DrawingFault;
 use super::landmark_distances::LandmarkDistances;
 use super::path_search::{Bounded, EndStep, FoundPath, Node, PathSearch, Query, Sector};
 use super::refinable::RefinableMesh;
-use crate::landmarks::{LandmarkId, Landmarks};
+use crate::landmarks::{LandmarkId, Landmarks, MeshSide};
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor};
 use typed_index_collections::{TiVec, ti_vec};
@@ -195,7 +195,7 @@ impl Drawing {
     ) -> Option<Plan> {
         let mut best: Option<Plan> = None;
         let mut tried: Option<[usize; 2]> = None;
-        for free in 0..2 {
+        for free in MeshSide::BOTH {
             let sectors = [0, 1].map(|e| {
                 let mut all = self.sectors(free, ends[e]).into_iter().enumerate().collect::<Vec<_>>();
                 all.retain(|(slot, _)| allowed[e].contains(slot));
@@ -208,11 +208,14 @@ impl Drawing {
                 continue;
             }
             tried = Some(slots);
-            let other = 1 - free;
+            let other = free.other();
             let Some(second) = self.search_in_slots(planner, other, ends, slots, limits[other]) else {
                 continue;
             };
-            let found = if free == 0 { [first, second] } else { [second, first] };
+            let found = match free {
+                MeshSide::Source => [first, second],
+                MeshSide::Target => [second, first],
+            };
             let plan = Plan { ends, found };
             if best.as_ref().is_none_or(|b| plan.length() < b.length()) {
                 best = Some(plan);
@@ -228,8 +231,8 @@ impl Drawing {
         ends: [LandmarkId; 2],
         slots: [usize; 2],
     ) -> Option<Plan> {
-        let source = self.search_in_slots(planner, 0, ends, slots, f64::INFINITY)?;
-        let target = self.search_in_slots(planner, 1, ends, slots, f64::INFINITY)?;
+        let source = self.search_in_slots(planner, MeshSide::Source, ends, slots, f64::INFINITY)?;
+        let target = self.search_in_slots(planner, MeshSide::Target, ends, slots, f64::INFINITY)?;
         Some(Plan { ends, found: [source, target] })
     }
 
@@ -237,7 +240,7 @@ impl Drawing {
     pub fn search_in_slots(
         &self,
         planner: &mut Planner<'_>,
-        side: usize,
+        side: MeshSide,
         ends: [LandmarkId; 2],
         slots: [usize; 2],
         limit: f64,
@@ -249,7 +252,7 @@ impl Drawing {
     fn search(
         &self,
         planner: &mut Planner<'_>,
-        side: usize,
+        side: MeshSide,
         ends: [LandmarkId; 2],
         sectors: [&[Sector]; 2],
         limit: f64,
@@ -296,20 +299,20 @@ impl Drawing {
 
     /// Whether a plan made earlier can still be drawn as it is: more paths only lengthen, so it is then still the best.
     pub fn still_valid(&self, plan: &Plan) -> bool {
-        (0..2).all(|s| {
-            let nodes = &plan.found[s].nodes;
+        self.sides.iter().zip(&plan.found).all(|(drawn, found)| {
+            let nodes = &found.nodes;
             let inner = &nodes[1..nodes.len() - 1];
-            inner.iter().all(|&node| self.sides[s].is_free(node))
-                && nodes.windows(2).all(|link| self.sides[s].is_linked(link[0], link[1]))
+            inner.iter().all(|&node| drawn.is_free(node))
+                && nodes.windows(2).all(|link| drawn.is_linked(link[0], link[1]))
         }) && {
-            let slots = [0, 1].map(|s| self.slots(s, plan.ends, &plan.found[s]));
+            let slots = MeshSide::BOTH.map(|side| self.slots(side, plan.ends, &plan.found[side]));
             slots[0].is_some() && slots[0] == slots[1]
         }
     }
 
     /// Draws a plan. Returns `None`, leaving the drawing unusable, where a node is not free any more.
     pub fn draw(&mut self, plan: &Plan) -> Option<()> {
-        let slots = self.slots(0, plan.ends, &plan.found[0])?;
+        let slots = self.slots(MeshSide::Source, plan.ends, &plan.found[0])?;
         for (side, found) in self.sides.iter_mut().zip(&plan.found) {
             side.realise(&found.nodes)?;
         }
@@ -368,7 +371,7 @@ impl Drawing {
     }
 
     /// Replaces a path on one mesh by another in the sector beside it.
-    pub fn exchange(&mut self, side: usize, path: usize, found: &FoundPath) -> Option<()> {
+    pub fn exchange(&mut self, side: MeshSide, path: usize, found: &FoundPath) -> Option<()> {
         let drawn = &mut self.sides[side];
         drawn.realise(&found.nodes)?;
         drawn.unmark(path);
@@ -378,7 +381,7 @@ impl Drawing {
     }
 
     /// The outgoing halfedge of a path at one of its landmarks.
-    pub fn path_halfedge(&self, side: usize, landmark: LandmarkId, path: usize) -> Option<HalfedgeId> {
+    pub fn path_halfedge(&self, side: MeshSide, landmark: LandmarkId, path: usize) -> Option<HalfedgeId> {
         let vertices = &self.sides[side].paths[path];
         let n = vertices.len();
         let at_start = self.ends[path][0] == landmark;
@@ -387,7 +390,7 @@ impl Drawing {
         self.sides[side].mesh.halfedge_between(from, to)
     }
 
-    fn sectors(&self, side: usize, landmark: LandmarkId) -> Vec<Sector> {
+    fn sectors(&self, side: MeshSide, landmark: LandmarkId) -> Vec<Sector> {
         let around = &self.rotation[landmark];
         let halfedges: Vec<_> =
             around.iter().filter_map(|&p| self.path_halfedge(side, landmark, p)).collect();
@@ -401,12 +404,12 @@ impl Drawing {
             .collect()
     }
 
-    fn slots(&self, side: usize, ends: [LandmarkId; 2], found: &FoundPath) -> Option<[usize; 2]> {
+    fn slots(&self, side: MeshSide, ends: [LandmarkId; 2], found: &FoundPath) -> Option<[usize; 2]> {
         Some([self.slot(side, ends[0], found.start_step)?, self.slot(side, ends[1], found.end_step)?])
     }
 
     /// The place of the rotation after which a path with this end step goes in.
-    fn slot(&self, side: usize, landmark: LandmarkId, step: EndStep) -> Option<usize> {
+    fn slot(&self, side: MeshSide, landmark: LandmarkId, step: EndStep) -> Option<usize> {
         let around = &self.rotation[landmark];
         if around.is_empty() {
             return Some(0);

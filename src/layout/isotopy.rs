@@ -7,7 +7,7 @@
 //! meshes. Paths are pushed to their left, which decides all coincidences.
 
 use super::base_layout::{BaseLayout, PatchedMesh};
-use crate::landmarks::LandmarkId;
+use crate::landmarks::{LandmarkId, MeshSide};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use std::collections::VecDeque;
 use typed_index_collections::{TiVec, ti_vec};
@@ -55,14 +55,14 @@ impl Class {
         let base = &other.base;
         base.mesh.edges().all(|h| {
             let ends = [base.tail(h), base.head(h)];
-            let words = [(0, &other.source), (1, &other.target)]
+            let words = [(MeshSide::Source, &other.source), (MeshSide::Target, &other.target)]
                 .map(|(side, patched)| self.word(side, &faces_beside(patched, &patched.paths[h]), ends));
             words[0].is_some() && words[0] == words[1]
         })
     }
 
     /// The base edges that a strip of input faces from one landmark to another crosses, as a reduced word.
-    fn word(&self, side: usize, strip: &[FaceId], ends: [LandmarkId; 2]) -> Option<Vec<HalfedgeId>> {
+    fn word(&self, side: MeshSide, strip: &[FaceId], ends: [LandmarkId; 2]) -> Option<Vec<HalfedgeId>> {
         let patched = [&self.layout.source, &self.layout.target][side];
         let [start, end] = ends.map(|l| patched.landmark_vertices[l]);
         let mut walk = Walk { patched, on_path: &self.on_path[side], crossed: Vec::new() };

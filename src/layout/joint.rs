@@ -5,7 +5,7 @@ use super::error::LayoutError;
 use super::landmark_distances::LandmarkDistances;
 use super::variants::{PLAIN, TreeOrder, Variant};
 use crate::base_domain::BaseDomain;
-use crate::landmarks::LandmarkId;
+use crate::landmarks::{LandmarkId, MeshSide};
 use crate::math::disjoint_sets::DisjointSets;
 use crate::math::min_queue::{MinQueue, Queued};
 use crate::monitor::Monitor;
@@ -223,7 +223,7 @@ impl<'a> PairQueue<'a> {
             let raised = 1.2 * next_key.max(least);
             // The limit grows from a positive number, so it ends; keys beyond the longest of paths need none.
             let limit = if raised > 0.0 && raised < NO_LIMIT { raised } else { f64::INFINITY };
-            let limits = [0, 1].map(|s| length_limit(limit / factor, geodesics, s));
+            let limits = MeshSide::BOTH.map(|side| length_limit(limit / factor, geodesics, side));
             let Some(plan) = drawing.plan_within(planner, ends, &slots, limits) else {
                 if limit.is_finite() {
                     self.queue.push(limit, ends, None);
@@ -256,11 +256,11 @@ fn key(plan: &Plan, geodesics: [f64; 2]) -> f64 {
 }
 
 /// The length of a path on one mesh beyond which its key exceeds a limit, however short the path on the other mesh is.
-fn length_limit(key: f64, geodesics: [f64; 2], side: usize) -> f64 {
+fn length_limit(key: f64, geodesics: [f64; 2], side: MeshSide) -> f64 {
     if key.is_infinite() {
         return key;
     }
-    let (own, other) = (geodesics[side], geodesics[1 - side]);
+    let (own, other) = (geodesics[side], geodesics[side.other()]);
     let exceeds = |stretch: f64| (own * stretch + other) * stretch * stretch > key;
     let (mut below, mut above) = (0.0, 1.0 + key / other);
     // Bisection to 1e-9.

@@ -2,7 +2,7 @@
 
 use super::path_search::{for_each_link, position};
 use super::refinable::RefinableMesh;
-use crate::landmarks::{LandmarkId, Landmarks};
+use crate::landmarks::{LandmarkId, Landmarks, MeshSide};
 use crate::math::min_queue::shortest_paths;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -61,8 +61,8 @@ impl LandmarkDistances {
         self.landmarks[0].len()
     }
 
-    /// Distance of every vertex of the source (side 0) or the target (1) to a landmark.
-    pub fn field(&self, side: usize, landmark: LandmarkId) -> &TiSlice<VertexId, f64> {
+    /// Distance of every vertex of one mesh to a landmark.
+    pub fn field(&self, side: MeshSide, landmark: LandmarkId) -> &TiSlice<VertexId, f64> {
         &self.fields[side][landmark]
     }
 

@@ -352,7 +352,7 @@ mod tests {
     use super::super::drawing::Drawing;
     use super::super::twists::testing::figures;
     use super::*;
-    use crate::landmarks::LandmarkId;
+    use crate::landmarks::{LandmarkId, MeshSide};
     use crate::monitor::Silent;
 
     #[test]
@@ -375,7 +375,7 @@ mod tests {
                 ends: [at[first], at[end]],
                 sectors: [&star(first), &star(end)],
                 midpoint_penalty: 1.0,
-                to_end: Some(distances.field(0, end)),
+                to_end: Some(distances.field(MeshSide::Source, end)),
                 limit: f64::INFINITY,
             };
             let usual = search.shortest(mesh, &query, &mut allowance).unwrap();

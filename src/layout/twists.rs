@@ -10,7 +10,7 @@ use super::error::LayoutError;
 use super::joint::{complete, straighten};
 use super::path_search::FoundPath;
 use super::variants::PLAIN;
-use crate::landmarks::LandmarkId;
+use crate::landmarks::{LandmarkId, MeshSide};
 use crate::math::disjoint_sets::DisjointSets;
 use typed_index_collections::{TiSlice, TiVec};
 
@@ -147,8 +147,7 @@ struct Tree {
 
 /// A path of one mesh that goes round a group of landmarks once more.
 struct TurnedPath {
-    /// 0 on the source, 1 on the target.
-    side: usize,
+    side: MeshSide,
     found: FoundPath,
     /// Its length relative to that of the path that it replaces.
     ratio: f64,
@@ -194,9 +193,9 @@ impl Tree {
         let drawing = &self.drawing;
         let ends = drawing.ends[self.between];
         let mut best: Option<TurnedPath> = None;
-        for side in 0..2 {
+        for side in MeshSide::BOTH {
             // A turn of one mesh is the opposite turn of the other.
-            let after = (turn == Turn::CounterClockwise) == (side == 1);
+            let after = (turn == Turn::CounterClockwise) == (side == MeshSide::Target);
             let slots = ends.map(|i| {
                 let around = &drawing.rotation[i];
                 let own = around.iter().position(|&p| p == self.between).unwrap_or(0);

@@ -178,7 +178,7 @@ fn read_matrices(
                 exchanged_matrix(meshes, piece.faces, DMat2::from_cols_array(&[m[0], m[1], m[2], m[3]]))
             }
             None => {
-                for (side, ring) in rings.iter_mut().enumerate() {
+                for (side, ring) in MeshSide::BOTH.into_iter().zip(&mut rings) {
                     map.ring(meshes[side].mesh(), side, piece, ring);
                 }
                 let is_whole = rings.iter().all(|ring| ring.len() == piece.corners.len());

@@ -117,8 +117,8 @@ fn what_was_written_is_read() {
         assert!(a.map.abs_diff_eq(b.map, 1e-12));
     }
     for (a, b) in back.correspondence.vertices.iter().zip(&map.correspondence.vertices) {
-        for side in [0, 1] {
-            let [p, q] = [a, b].map(|places| places[side].position(meshes[side].mesh()));
+        for (k, mesh) in meshes.iter().enumerate() {
+            let [p, q] = [a, b].map(|places| places[k].position(mesh.mesh()));
             assert!(p.distance(q) < 1e-15);
         }
     }

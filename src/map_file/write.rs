@@ -6,6 +6,7 @@ use super::file_mesh::FileMesh;
 use super::header::{Header, MeshEntry};
 use super::numbering::{exchanged_matrix, write_places};
 use crate::base_domain::BaseDomain;
+use crate::landmarks::MeshSide;
 use crate::mesh::FaceId;
 use crate::surface_map::correspondence::{Correspondence, TextureDrawing, matrix_of_corners};
 use crate::surface_map::flat_layout::{FlatDrawing, FlatLayout};
@@ -49,19 +50,19 @@ fn mesh_entry(mesh: &FileMesh) -> MeshEntry {
 }
 
 fn write_pieces(sections: &mut Sections, map: &Correspondence, meshes: [&FileMesh; 2]) {
-    for (side, name) in ["vertices.source", "vertices.target"].into_iter().enumerate() {
+    for (side, name) in MeshSide::BOTH.into_iter().zip(["vertices.source", "vertices.target"]) {
         write_places(sections, name, meshes[side], map.vertices.iter().map(|places| places[side]));
     }
     let sizes: Vec<u32> = map.pieces.iter().map(|piece| piece.corners.len() as u32).collect();
     sections.integers("pieces.sizes", &sizes);
     sections.integers("pieces.corners", &map.corners);
-    for (side, name) in ["pieces.source_faces", "pieces.target_faces"].into_iter().enumerate() {
+    for (side, name) in MeshSide::BOTH.into_iter().zip(["pieces.source_faces", "pieces.target_faces"]) {
         sections.integers(name, &map.pieces.iter().map(|piece| piece.faces[side].0).collect::<Vec<_>>());
     }
     let (mut thin, mut matrices, mut uncertain) = (Vec::new(), Vec::new(), Vec::new());
     let mut rings = [Vec::new(), Vec::new()];
     for (number, piece) in map.pieces.iter().enumerate() {
-        for (side, ring) in rings.iter_mut().enumerate() {
+        for (side, ring) in MeshSide::BOTH.into_iter().zip(&mut rings) {
             map.ring(meshes[side].mesh(), side, piece, ring);
         }
         if matrix_of_corners(&rings[0], &rings[1]).is_none() {
@@ -88,7 +89,7 @@ fn write_texture(sections: &mut Sections, texture: &TextureDrawing, target: &Fil
 fn write_layout(sections: &mut Sections, layout: &FlatLayout, meshes: [&FileMesh; 2]) {
     write_base(sections, "layout.base", &layout.base);
     sections.numbers("layout.lengths", &layout.lengths.raw);
-    for (side, name) in ["layout.source", "layout.target"].into_iter().enumerate() {
+    for (side, name) in MeshSide::BOTH.into_iter().zip(["layout.source", "layout.target"]) {
         write_drawing(sections, name, &layout.drawings[side], meshes[side]);
     }
 }

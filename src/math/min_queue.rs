@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn paths_on_a_grid_are_as_long_as_their_steps() {
-        let (side, links) = (7_u32, |node: u32| {
+        let (width, links) = (7_u32, |node: u32| {
             let [x, y] = [node % 7, node / 7];
             let right = (x < 6).then_some((node + 1, 1.0, node));
             let up = (y < 6).then_some((node + 7, 10.0, node));
@@ -143,8 +143,8 @@ mod tests {
         let mut before = vec![None; 50];
         // The last node has no link.
         let distance = shortest_paths(50, 0, links, |node, from| before[node as usize] = Some(from));
-        for node in 0..side * side {
-            assert_eq!(distance[node as usize], f64::from(node % side + 10 * (node / side)));
+        for node in 0..width * width {
+            assert_eq!(distance[node as usize], f64::from(node % width + 10 * (node / width)));
             assert_eq!(before[node as usize].is_none(), node == 0);
         }
         assert_eq!(distance[49], f64::INFINITY);

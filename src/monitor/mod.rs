@@ -9,7 +9,7 @@ mod rising;
 mod stage;
 
 pub use portion::Portion;
-pub use preview::{MapPreview, PreviewOf};
+pub use preview::MapPreview;
 pub use progress::{PlannedStage, Progress};
 pub use pulse::Pulse;
 pub use receiver::{Cancelled, Monitor, Silent, Step};

@@ -66,7 +66,7 @@ impl Monitor for Portion<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::monitor::PreviewOf;
+    use crate::mesh_side::MeshSide;
     use glam::DVec3;
 
     /// Remembers fractions.
@@ -98,7 +98,7 @@ mod tests {
     struct Unasked;
 
     impl MapPreview for Unasked {
-        fn images(&self, _of: PreviewOf) -> Option<Vec<DVec3>> {
+        fn images(&self, _of: MeshSide) -> Option<Vec<DVec3>> {
             panic!("nobody wanted images")
         }
     }

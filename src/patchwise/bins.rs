@@ -16,7 +16,8 @@ pub struct Bins {
     low: DVec2,
     /// Bins per unit of length.
     density: DVec2,
-    side: usize,
+    /// Number of rows, and of bins in each.
+    rows: usize,
     bins: Vec<Vec<u32>>,
 }
 
@@ -25,14 +26,14 @@ impl Bins {
     pub fn new(faces: Vec<Placed>, triangle: &[DVec2; 3]) -> Self {
         let [low, high] = bounds(triangle);
         // About one face a bin; 512^2 bins take a few megabytes.
-        let side = ((faces.len() as f64).sqrt() as usize).clamp(1, 512);
-        let density = DVec2::splat(side as f64) / (high - low);
-        let mut result = Self { faces, low, density, side, bins: vec![Vec::new(); side * side] };
+        let rows = ((faces.len() as f64).sqrt() as usize).clamp(1, 512);
+        let density = DVec2::splat(rows as f64) / (high - low);
+        let mut result = Self { faces, low, density, rows, bins: vec![Vec::new(); rows * rows] };
         for number in 0..result.faces.len() {
             let [low, high] = bounds(&result.faces[number].corners);
             let ([x0, y0], [x1, y1]) = (result.bin(low), result.bin(high));
             for y in y0..=y1 {
-                (x0..=x1).for_each(|x| result.bins[y * side + x].push(number as u32));
+                (x0..=x1).for_each(|x| result.bins[y * rows + x].push(number as u32));
             }
         }
         result
@@ -40,14 +41,14 @@ impl Bins {
 
     fn bin(&self, p: DVec2) -> [usize; 2] {
         let scaled = (p - self.low) * self.density;
-        scaled.to_array().map(|x| (x.max(0.0) as usize).min(self.side - 1))
+        scaled.to_array().map(|x| (x.max(0.0) as usize).min(self.rows - 1))
     }
 
     /// The face, not inverted, that contains a point best.
     pub fn locate(&self, q: DVec2) -> Option<SurfacePoint> {
         let [x, y] = self.bin(q);
         let mut best: Option<(f64, SurfacePoint)> = None;
-        for &number in &self.bins[y * self.side + x] {
+        for &number in &self.bins[y * self.rows + x] {
             let Placed { face, corners } = self.faces[number as usize];
             if signed_double_area(corners[0], corners[1], corners[2]) <= 0.0 {
                 continue;

@@ -7,6 +7,7 @@
 use super::{Borders, MapInput, PipelineOptions};
 use crate::coarse_map::MultilevelOptions;
 use crate::geodesic::distances;
+use crate::landmarks::MeshSide;
 use crate::math::scalar::{exp, ln, min};
 use crate::mesh::face_weights::FaceWeight;
 use crate::mesh::rims::{Rim, rims};
@@ -82,11 +83,11 @@ impl BordersReport {
         self
     }
 
-    /// The same with other numbers of vertices; `number` gets the side (0 source) and the number.
+    /// The same with other numbers of vertices; `number` gets the mesh and the number.
     #[must_use]
-    pub fn renumbered(mut self, number: impl Fn(usize, usize) -> usize) -> Self {
+    pub fn renumbered(mut self, number: impl Fn(MeshSide, usize) -> usize) -> Self {
         for pair in &mut self.rims {
-            for (side, rim) in [&mut pair.source, &mut pair.target].into_iter().enumerate() {
+            for (side, rim) in MeshSide::BOTH.into_iter().zip([&mut pair.source, &mut pair.target]) {
                 rim.vertex = number(side, rim.vertex);
             }
         }

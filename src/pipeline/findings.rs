@@ -4,12 +4,12 @@
 use super::MapInput;
 use crate::landmark_fit::{Finding, MOST_COMPARED, Repair, landmark_fit};
 use crate::landmark_suggestion::unmarked_limbs;
-use crate::landmarks::Landmarks;
+use crate::landmarks::{LandmarkId, Landmarks, MeshSide};
 use crate::layout::LandmarkDistances;
 use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Rising, Stage};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Vertices of the coarse levels, on which distances are measured. Chosen by hand.
 const COARSE_VERTICES: usize = 1500;
@@ -65,19 +65,24 @@ pub struct FindingReport {
     pub distance: Option<f64>,
     /// For misplaced pairs, the pair whose target is nearest to the best place, 0-based.
     pub near: Option<usize>,
-    /// For limbs, the mesh: 0 the source and 1 the target.
+    /// For limbs, the mesh, written as a number: 0 the source and 1 the target.
+    #[serde(serialize_with = "as_number")]
     #[cfg_attr(all(feature = "web", target_arch = "wasm32"), tsify(type = "0 | 1 | null"))]
-    pub side: Option<usize>,
+    pub side: Option<MeshSide>,
     /// For limbs, their ends as vertices of the mesh, the most remote first.
     pub vertices: Vec<usize>,
+}
+
+fn as_number<S: Serializer>(side: &Option<MeshSide>, serializer: S) -> Result<S::Ok, S::Error> {
+    side.map(|side| side as usize).serialize(serializer)
 }
 
 impl FindingReport {
     fn new(finding: &Finding, labels: &[String]) -> Self {
         let (repair, pairs) = match finding.repair() {
             Repair::MirrorTarget => (RepairKind::MirrorTarget, Vec::new()),
-            Repair::Swap { pairs } => (RepairKind::Swap, pairs.to_vec()),
-            Repair::Check { pair } => (RepairKind::Check, vec![pair]),
+            Repair::Swap { pairs } => (RepairKind::Swap, pairs.map(LandmarkId::index).to_vec()),
+            Repair::Check { pair } => (RepairKind::Check, vec![pair.index()]),
         };
         let bare = Self {
             kind: FindingKind::Mirrored,
@@ -100,7 +105,7 @@ impl FindingReport {
                 kind: FindingKind::Misplaced,
                 misfit: Some(misfit),
                 distance: Some(distance),
-                near: Some(near),
+                near: Some(near.index()),
                 ..bare
             },
         }
@@ -108,7 +113,7 @@ impl FindingReport {
 }
 
 /// The finding of limbs of one mesh without a landmark.
-fn limbs(side: usize, vertices: Vec<usize>) -> FindingReport {
+fn limbs(side: MeshSide, vertices: Vec<usize>) -> FindingReport {
     FindingReport {
         kind: FindingKind::UnmarkedLimbs,
         pairs: Vec::new(),
@@ -123,16 +128,15 @@ fn limbs(side: usize, vertices: Vec<usize>) -> FindingReport {
     }
 }
 
-fn limbs_sentence(side: usize, vertices: &[usize]) -> String {
-    let mesh = if side == 0 { "source" } else { "target" };
+fn limbs_sentence(side: MeshSide, vertices: &[usize]) -> String {
     match vertices {
         [end] => format!(
-            "A limb of the {mesh} has no landmark: its end is vertex {end}. A pair there may lower the distortion."
+            "A limb of the {side} has no landmark: its end is vertex {end}. A pair there may lower the distortion."
         ),
         ends => {
             let ends: Vec<String> = ends.iter().map(usize::to_string).collect();
             format!(
-                "{} limbs of the {mesh} have no landmark: their ends are the vertices {}. Pairs there may lower the \
+                "{} limbs of the {side} have no landmark: their ends are the vertices {}. Pairs there may lower the \
                  distortion.",
                 ends.len(),
                 ends.join(", ")
@@ -144,7 +148,7 @@ fn limbs_sentence(side: usize, vertices: &[usize]) -> String {
 impl FindingReport {
     /// The same with other numbers for the vertices of each mesh, such as those of its file.
     #[must_use]
-    pub fn renumbered(mut self, number: impl Fn(usize, usize) -> usize) -> Self {
+    pub fn renumbered(mut self, number: impl Fn(MeshSide, usize) -> usize) -> Self {
         if let Some(side) = self.side {
             self.vertices.iter_mut().for_each(|v| *v = number(side, *v));
             self.sentence = limbs_sentence(side, &self.vertices);
@@ -184,11 +188,14 @@ pub fn findings(
         found = landmark_fit(meshes, &landmarks, &distances, &mut Portion::new(monitor, 0.1, 0.5))?;
     }
     let mut reports: Vec<_> = found.iter().map(|finding| FindingReport::new(finding, labels)).collect();
-    let sides = if monitor.wants_result() { 0 } else { 2 };
-    for (side, marks) in [&landmarks.source.raw, &landmarks.target.raw].into_iter().enumerate().take(sides) {
+    if monitor.wants_result() {
+        return Ok(reports);
+    }
+    let marks = [&landmarks.source.raw, &landmarks.target.raw];
+    for (side, from) in MeshSide::BOTH.into_iter().zip([0.5, 0.75]) {
         let level = &levels[side];
-        let half = &mut Portion::new(monitor, 0.5 + 0.25 * side as f64, 0.75 + 0.25 * side as f64);
-        let ends: Vec<usize> = numbers(level, unmarked_limbs(&level.mesh, marks, half)?);
+        let quarter = &mut Portion::new(monitor, from, from + 0.25);
+        let ends: Vec<usize> = numbers(level, unmarked_limbs(&level.mesh, marks[side], quarter)?);
         if !ends.is_empty() {
             reports.push(limbs(side, ends));
         }
@@ -218,18 +225,18 @@ mod tests {
         let (source, target) = (&demo.source, &demo.target);
         let input = MapInput::new(source, target, &landmarks);
         let found = findings(input, &[], &mut Silent).unwrap();
-        assert_eq!(found.iter().map(|f| f.side).collect::<Vec<_>>(), [Some(0), Some(1)], "{found:?}");
+        let sides: Vec<_> = found.iter().map(|f| f.side).collect();
+        assert_eq!(sides, MeshSide::BOTH.map(Some), "{found:?}");
+        assert_eq!(serde_json::to_value(&found).unwrap()[1]["side"], 1);
         let tail = (0..demo.labels.len()).find(is_tail).unwrap();
-        for (side, mesh) in [source, target].into_iter().enumerate() {
-            assert_eq!(
-                (found[side].kind, found[side].repair),
-                (FindingKind::UnmarkedLimbs, RepairKind::Mark)
-            );
-            let [end] = found[side].vertices[..] else { panic!("{found:?}") };
+        for (finding, mesh) in found.iter().zip([source, target]) {
+            let side = finding.side.unwrap();
+            assert_eq!((finding.kind, finding.repair), (FindingKind::UnmarkedLimbs, RepairKind::Mark));
+            let [end] = finding.vertices[..] else { panic!("{found:?}") };
             let place = |v: usize| mesh.positions()[VertexId::from(v)];
             assert!(place(end).distance(place(demo.landmarks[tail][side] as usize)) < 0.25, "{found:?}");
-            let given = found[side].clone().renumbered(|side, v| 10 * v + side);
-            assert!(given.sentence.contains(&format!("vertex {}.", 10 * end + side)), "{given:?}");
+            let given = finding.clone().renumbered(|side, v| 10 * v + side as usize);
+            assert!(given.sentence.contains(&format!("vertex {}.", 10 * end + side as usize)), "{given:?}");
         }
     }
 

@@ -7,6 +7,7 @@ use super::parametrise::Parametrisation;
 use super::report::{CertificateReport, CoverageReport, DistortionReport, LayoutSearchReport};
 use super::{MapInput, MapResult, Report, TriangleDistortion, Warning};
 use crate::base_domain::BaseDomain;
+use crate::landmarks::MeshSide;
 use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceFrame, FaceId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -83,9 +84,9 @@ impl Outcome<'_> {
             ..self.report(&shown.measured)
         };
         monitor.step(Step::default())?;
-        let source_lines = patch_lines(map, 0, input.source);
+        let source_lines = patch_lines(map, MeshSide::Source, input.source);
         monitor.step(Step::default())?;
-        let target_lines = patch_lines(map, 1, input.target);
+        let target_lines = patch_lines(map, MeshSide::Target, input.target);
         monitor.step(Step::default())?;
         Ok(MapResult {
             base: self.base.clone(),
@@ -228,7 +229,7 @@ fn refined_caps(is_cap: &TiSlice<FaceId, bool>, refined: &RefinedMesh) -> TiVec<
 }
 
 /// The edges of the base faces on one of both meshes, in its input coordinates.
-fn patch_lines(map: &Parametrisation, side: usize, input: &SurfaceMesh) -> Vec<Vec<DVec3>> {
+fn patch_lines(map: &Parametrisation, side: MeshSide, input: &SurfaceMesh) -> Vec<Vec<DVec3>> {
     let base = &map.surface.base.mesh;
     let refined = &map.sides[side].refined;
     let line = |h| base_line(map.sides()[side], &map.surface, h).points;

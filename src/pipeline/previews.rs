@@ -1,7 +1,8 @@
 //! Previews of a map for the vertices, and in the coordinates, of the meshes as they were given.
 
+use crate::landmarks::MeshSide;
 use crate::mesh::SurfaceMesh;
-use crate::monitor::{Cancelled, MapPreview, Monitor, PreviewOf, Stage, Step};
+use crate::monitor::{Cancelled, MapPreview, Monitor, Stage, Step};
 use glam::DVec3;
 
 /// The roles of source and target while the map is made.
@@ -36,15 +37,12 @@ struct OfGivenMeshes<'a> {
 }
 
 impl MapPreview for OfGivenMeshes<'_> {
-    fn images(&self, of: PreviewOf) -> Option<Vec<DVec3>> {
+    fn images(&self, of: MeshSide) -> Option<Vec<DVec3>> {
         let of = match self.roles {
             Roles::AsGiven => of,
             Roles::Exchanged => of.other(),
         };
-        let [from, onto] = match of {
-            PreviewOf::Source => self.meshes,
-            PreviewOf::Target => [self.meshes[1], self.meshes[0]],
-        };
+        let [from, onto] = [of, of.other()].map(|side| self.meshes[side]);
         let mut places = self.preview.images(of)?;
         // The first vertices of a refined mesh are those of the mesh itself.
         places.truncate(from.vertex_count());

@@ -1,6 +1,7 @@
 //! A finished map asked at single places: its triangles are drawn on both surfaces, and on each the map is affine.
 
 use crate::mesh::closest_point::closest_in_triangle;
+use crate::mesh_side::MeshSide;
 use glam::DVec3;
 use parry3d_f64::query::{PointQueryWithLocation, Ray, RayCast};
 use parry3d_f64::shape::TriMesh;
@@ -9,7 +10,7 @@ use parry3d_f64::shape::TriMesh;
 pub struct MapPicker {
     positions: [Vec<DVec3>; 2],
     triangles: Vec<[u32; 3]>,
-    /// A hierarchy over each side, made when it is first needed.
+    /// A hierarchy over each mesh, made when it is first needed.
     shapes: [Option<TriMesh>; 2],
 }
 
@@ -33,8 +34,8 @@ impl MapPicker {
         fits.then_some(Self { positions, triangles, shapes: [None, None] })
     }
 
-    /// The place where a ray first meets one side, 0 the source and 1 the target.
-    pub fn under_ray(&mut self, side: usize, origin: DVec3, direction: DVec3) -> Option<MapPlace> {
+    /// The place where a ray first meets one mesh.
+    pub fn under_ray(&mut self, side: MeshSide, origin: DVec3, direction: DVec3) -> Option<MapPlace> {
         let ray = Ray::new(origin.to_array().into(), direction.to_array().into());
         let hit = self.shape(side)?.cast_local_ray_and_get_normal(&ray, f64::MAX, false)?;
         let point = origin + direction * hit.time_of_impact;
@@ -43,8 +44,8 @@ impl MapPicker {
         Some(self.place(triangle, weights))
     }
 
-    /// The place nearest to a point, on one side.
-    pub fn nearest(&mut self, side: usize, point: DVec3) -> Option<MapPlace> {
+    /// The place nearest to a point, on one mesh.
+    pub fn nearest(&mut self, side: MeshSide, point: DVec3) -> Option<MapPlace> {
         let (_, (triangle, _)) =
             self.shape(side)?.project_local_point_and_get_location(point.to_array().into(), false);
         let triangle = *self.triangles.get(triangle as usize)?;
@@ -52,7 +53,7 @@ impl MapPicker {
         Some(self.place(triangle, weights))
     }
 
-    fn shape(&mut self, side: usize) -> Option<&TriMesh> {
+    fn shape(&mut self, side: MeshSide) -> Option<&TriMesh> {
         let shape = &mut self.shapes[side];
         if shape.is_none() {
             let vertices = self.positions[side].iter().map(|p| p.to_array().into()).collect();
@@ -61,14 +62,14 @@ impl MapPicker {
         shape.as_ref()
     }
 
-    fn corners(&self, side: usize, triangle: [u32; 3]) -> [DVec3; 3] {
+    fn corners(&self, side: MeshSide, triangle: [u32; 3]) -> [DVec3; 3] {
         triangle.map(|v| self.positions[side][v as usize])
     }
 
     fn place(&self, triangle: [u32; 3], weights: [f64; 3]) -> MapPlace {
         let blend = |[a, b, c]: [DVec3; 3]| a * weights[0] + b * weights[1] + c * weights[2];
         MapPlace {
-            positions: [0, 1].map(|side| blend(self.corners(side, triangle))),
+            positions: MeshSide::BOTH.map(|side| blend(self.corners(side, triangle))),
             corners: triangle,
             weights,
         }
@@ -98,17 +99,17 @@ mod tests {
         let mut picker = picker();
         for k in 0..50 {
             let way = DVec3::new(f64::from(k % 7) - 3.1, f64::from(k % 11) - 5.2, f64::from(k % 5) - 2.3);
-            let place = picker.under_ray(0, way.normalize() * 4.0, -way.normalize()).unwrap();
+            let place = picker.under_ray(MeshSide::Source, way.normalize() * 4.0, -way.normalize()).unwrap();
             let [on_source, on_target] = place.positions;
             assert!(on_source.normalize().distance(way.normalize()) < 1e-9);
             assert!(on_target.distance(stretch(on_source)) < 1e-12);
             let blend: DVec3 =
                 (0..3).map(|k| picker.positions[0][place.corners[k] as usize] * place.weights[k]).sum();
             assert!(blend.distance(on_source) < 1e-12);
-            let back = picker.nearest(1, on_target).unwrap();
+            let back = picker.nearest(MeshSide::Target, on_target).unwrap();
             assert!(back.positions[0].distance(on_source) < 1e-9);
         }
-        assert!(picker.under_ray(0, DVec3::splat(3.0), DVec3::X).is_none());
+        assert!(picker.under_ray(MeshSide::Source, DVec3::splat(3.0), DVec3::X).is_none());
     }
 
     #[test]

@@ -144,7 +144,7 @@ pub fn attributes(
     }
     let weights: Vec<usize> = (0..kinds.len()).filter(|&k| kinds[k] == Kind::Weight).collect();
     keep_weights(&mut carried, &weights);
-    let receiver = files[1 - giver].checked();
+    let receiver = files[giver.other()].checked();
     let column = |(column, values): (&Column, &Values)| Column {
         name: column.name.clone(),
         number_type: column.number_type,

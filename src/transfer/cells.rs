@@ -1,5 +1,6 @@
 //! The overlay as triangles, each inside one face of both meshes, with exact integrals of linear functions on them.
 
+use crate::landmarks::MeshSide;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::SurfaceMesh;
 use crate::surface_map::correspondence::{Correspondence, MappedPiece};
@@ -39,13 +40,13 @@ impl<'a> Cells<'a> {
     /// The triangles of a piece, a fan around its first corner; none where two edges coincide.
     pub fn of(&mut self, piece: &MappedPiece) -> &[Cell] {
         let Self { meshes, map, areas, rings, cells } = self;
-        for side in [0, 1] {
+        for side in MeshSide::BOTH {
             map.ring(meshes[side], side, piece, &mut rings[side]);
         }
         cells.clear();
         for k in 2..rings[0].len().min(rings[1].len()) {
-            let corners = [0, 1].map(|side| [0, k - 1, k].map(|c| rings[side][c]));
-            let area = |side: usize| {
+            let corners = MeshSide::BOTH.map(|side| [0, k - 1, k].map(|c| rings[side][c]));
+            let area = |side: MeshSide| {
                 let [p, q, r] = corners[side];
                 let share = signed_double_area(p, q, r);
                 // Rounding may turn the thinnest triangles over.
@@ -53,7 +54,7 @@ impl<'a> Cells<'a> {
             };
             cells.push(Cell {
                 weights: corners.map(|triangle| triangle.map(|p| [1.0 - p.x - p.y, p.x, p.y])),
-                areas: [area(0), area(1)],
+                areas: MeshSide::BOTH.map(area),
             });
         }
         cells
@@ -72,7 +73,7 @@ mod tests {
         let mut sums = [0.0; 2];
         for piece in &mapped.map.pieces {
             for cell in cells.of(piece) {
-                (0..2).for_each(|side| sums[side] += cell.areas[side]);
+                sums.iter_mut().zip(cell.areas).for_each(|(sum, area)| *sum += area);
             }
         }
         for (sum, mesh) in sums.into_iter().zip(mapped.meshes()) {

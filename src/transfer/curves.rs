@@ -1,6 +1,6 @@
-//! Curves of one mesh on the other: polylines whose sides lie in faces, cut where they pass from piece to piece of the overlay.
+//! Curves of one mesh on the other: polylines whose segments lie in faces, cut where they pass from piece to piece of the overlay.
 //!
-//! Within a piece the map is affine, so that a straight side stays straight there. The curve that comes out lies on the image exactly:
+//! Within a piece the map is affine, so that a straight segment stays straight there. The curve that comes out lies on the image exactly:
 //! a cut on a side of a piece is told by that side's ends, so that it lies on an edge of the other mesh where the side does.
 
 use super::mapped_files::MappedFiles;
@@ -8,6 +8,7 @@ use crate::export::curves::{CarriedCurve, CarriedPoint};
 use crate::export::vertex_image::Direction;
 use crate::io::curve_file::Curve;
 use crate::io::landmark_file::LandmarkPoint;
+use crate::landmarks::MeshSide;
 use crate::map_file::FileMesh;
 use crate::mesh::{FaceId, Place, SurfaceMesh, SurfacePoint};
 use crate::monitor::{Cancelled, Monitor, Step};
@@ -41,7 +42,7 @@ const ZERO_WEIGHT: f64 = 1e-9;
 /// A point this near to a side or corner of a piece, in weights of its face, lies on it.
 const ON_SIDE: f64 = 1e-11;
 
-/// Parameters along a side that differ by less are one.
+/// Parameters along a segment that differ by less are one.
 const SAME: f64 = 1e-12;
 
 /// Curves of one file's mesh on the other one's, both told in the files' numbers.
@@ -56,7 +57,7 @@ pub fn of_files(
 ) -> Result<Vec<CarriedCurve>, CurveError> {
     let files = mapped.files;
     let carrier = CurveCarrier::new(mapped.meshes(), mapped.map, direction);
-    let [giver, receiver] = [files[direction.side()], files[1 - direction.side()]];
+    let [giver, receiver] = [direction.side(), direction.side().other()].map(|side| files[side]);
     let told = |place: &Place| {
         let point = place.surface_point(receiver.mesh());
         CarriedPoint {
@@ -116,11 +117,11 @@ fn place_of(file: &FileMesh, point: LandmarkPoint) -> Result<Place, String> {
 pub struct CurveCarrier<'a> {
     meshes: [&'a SurfaceMesh; 2],
     map: &'a Correspondence,
-    giver: usize,
+    giver: MeshSide,
     pieces: PiecesByFace,
 }
 
-/// A part of a straight side within one piece: where it begins and ends, 0 to 1.
+/// A part of a straight segment within one piece: where it begins and ends, 0 to 1.
 struct Stretch<'a> {
     begin: f64,
     end: f64,
@@ -154,14 +155,14 @@ impl<'a> CurveCarrier<'a> {
         let mut image = Vec::new();
         if let [only] = curve {
             let face = only.surface_point(self.meshes[self.giver]).face;
-            self.side(face, [*only, *only], &mut image);
+            self.add_segment(face, [*only, *only], &mut image);
         }
         let ends = if is_closed && curve.len() > 1 { curve.len() } else { curve.len().saturating_sub(1) };
         for k in 0..ends {
             let next = (k + 1) % curve.len();
-            let side = [curve[k], curve[next]];
-            let face = self.common_face(side).ok_or(next)?;
-            self.side(face, side, &mut image);
+            let segment = [curve[k], curve[next]];
+            let face = self.common_face(segment).ok_or(next)?;
+            self.add_segment(face, segment, &mut image);
         }
         if is_closed && image.len() > 1 && self.are_one(&image[0], &image[image.len() - 1]) {
             image.pop();
@@ -182,10 +183,10 @@ impl<'a> CurveCarrier<'a> {
         }
     }
 
-    /// Adds the image of a straight side in a face.
-    fn side(&self, face: FaceId, side: [Place; 2], image: &mut Vec<Place>) {
+    /// Adds the image of a straight segment in a face.
+    fn add_segment(&self, face: FaceId, segment: [Place; 2], image: &mut Vec<Place>) {
         let mesh = self.meshes[self.giver];
-        let weights = side.map(|place| place.weights_in(mesh, face).unwrap_or([1.0, 0.0, 0.0]));
+        let weights = segment.map(|place| place.weights_in(mesh, face).unwrap_or([1.0, 0.0, 0.0]));
         let [p, q] = weights.map(|w| DVec2::new(w[1], w[2]));
         let mut ring = Vec::new();
         let mut stretches = Vec::new();
@@ -208,7 +209,7 @@ impl<'a> CurveCarrier<'a> {
 
     /// Whether two places are one, but for rounding.
     fn are_one(&self, a: &Place, b: &Place) -> bool {
-        let mesh = self.meshes[1 - self.giver];
+        let mesh = self.meshes[self.giver.other()];
         if a.key() == b.key() {
             return true;
         }
@@ -220,23 +221,24 @@ impl<'a> CurveCarrier<'a> {
     /// The image of a point of a piece, given by weights 1 and 2 in its face.
     fn image(&self, piece: &MappedPiece, q: DVec2) -> Place {
         let mut rings = [Vec::new(), Vec::new()];
-        for side in [0, 1] {
+        for side in MeshSide::BOTH {
             self.map.ring(self.meshes[side], side, piece, &mut rings[side]);
         }
         let here = &rings[self.giver];
         let corners = &self.map.corners[piece.corners.clone()];
         let near = |k: &usize| here[*k].distance(q) <= ON_SIDE;
         if let Some(k) = (0..here.len()).find(near) {
-            return self.map.vertices[corners[k] as usize][1 - self.giver];
+            return self.map.vertices[corners[k] as usize][self.giver.other()];
         }
-        let (onto, face) = (self.meshes[1 - self.giver], piece.faces[1 - self.giver]);
+        let (onto, face) = (self.meshes[self.giver.other()], piece.faces[self.giver.other()]);
         for k in 0..here.len() {
             let next = (k + 1) % here.len();
             let (a, along) = (here[k], here[next] - here[k]);
             let share = (q - a).dot(along) / along.length_squared();
             if share > 0.0 && share < 1.0 && (a + along * share).distance(q) <= ON_SIDE {
-                let ends = [k, next]
-                    .map(|c| self.map.vertices[corners[c] as usize][1 - self.giver].weights_in(onto, face));
+                let ends = [k, next].map(|c| {
+                    self.map.vertices[corners[c] as usize][self.giver.other()].weights_in(onto, face)
+                });
                 if let [Some(u), Some(v)] = ends {
                     // Where both are 0 the sum is exactly 0: the point stays on the edge.
                     let barycentric = [0, 1, 2].map(|c| u[c] * (1.0 - share) + v[c] * share);
@@ -244,14 +246,14 @@ impl<'a> CurveCarrier<'a> {
                 }
             }
         }
-        let matrix = if self.giver == 0 { piece.map } else { piece.map.inverse() };
+        let matrix = piece.map_from(self.giver);
         let nearest = (0..here.len()).min_by(|&i, &j| here[i].distance(q).total_cmp(&here[j].distance(q)));
-        let image = nearest.map_or(DVec2::ZERO, |k| rings[1 - self.giver][k] + matrix * (q - here[k]));
+        let image = nearest.map_or(DVec2::ZERO, |k| rings[self.giver.other()][k] + matrix * (q - here[k]));
         Place::of(onto, SurfacePoint::clamped(face, [1.0 - image.x - image.y, image.x, image.y]))
     }
 }
 
-/// The part of a straight side p q within a counter-clockwise convex polygon; `None` where it is outside or the polygon has no area.
+/// The part of a straight segment p q within a counter-clockwise convex polygon; `None` where it is outside or the polygon has no area.
 fn clipped(ring: &[DVec2], p: DVec2, q: DVec2) -> Option<[f64; 2]> {
     let (mut begin, mut end) = (0.0_f64, 1.0_f64);
     let mut is_thick = false;
@@ -349,12 +351,12 @@ mod tests {
 
     /// The distance of a point to a polyline.
     fn distance(mesh: &SurfaceMesh, curve: &[Place], p: glam::DVec3) -> f64 {
-        let to_side = |pair: &[Place]| {
+        let to_segment = |pair: &[Place]| {
             let [a, b] = [pair[0], pair[1]].map(|place| place.position(mesh));
             let t = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
             p.distance(if t.is_nan() { a } else { a + (b - a) * t })
         };
-        curve.windows(2).map(to_side).fold(f64::INFINITY, f64::min)
+        curve.windows(2).map(to_segment).fold(f64::INFINITY, f64::min)
     }
 
     #[test]
@@ -364,7 +366,7 @@ mod tests {
             let [here, other] = [mapped.meshes()[there.side()], mapped.meshes()[back.side()]];
             for curve in [walk(here, VertexId(3), 12), zigzag(here, 20)] {
                 let image = carrier(mapped, there).carried(open(&curve)).unwrap();
-                // Every side of the image lies in a face, or it could not be brought back.
+                // Every segment of the image lies in a face, or it could not be brought back.
                 let again = carrier(mapped, back).carried(open(&image)).unwrap();
                 assert!(image.len() > curve.len() && again.len() >= image.len());
                 for place in &again {
@@ -385,7 +387,7 @@ mod tests {
         let mapped = ball_on_egg();
         let curve = walk(&mapped.source, VertexId(11), 9);
         let image = carrier(mapped, SourceToTarget).carried(open(&curve)).unwrap();
-        let images = mapped.map.vertex_images(mapped.meshes(), 0);
+        let images = mapped.map.vertex_images(mapped.meshes(), MeshSide::Source);
         for (place, found) in [(curve[0], image[0]), (curve[9], image[image.len() - 1])] {
             let Place::Vertex(v) = place else { panic!("{place:?}") };
             let wanted = images[v].unwrap().position(&mapped.target);
@@ -423,7 +425,7 @@ mod tests {
     }
 
     #[test]
-    fn sides_are_clipped() {
+    fn segments_are_clipped() {
         let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
         let part = |p: [f64; 2], q: [f64; 2]| clipped(&square, p.into(), q.into());
         assert_eq!(part([-1.0, 0.5], [3.0, 0.5]), Some([0.25, 0.5]));

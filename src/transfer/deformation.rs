@@ -11,6 +11,7 @@ use super::gradients::{centre, gradients};
 use super::poisson::Poisson;
 pub use super::poisson::{DeformationError, Shape};
 use crate::export::vertex_image::Direction;
+use crate::landmarks::MeshSide;
 use crate::mesh::{FaceId, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::surface_map::correspondence::Correspondence;
@@ -43,7 +44,7 @@ impl<'a> DeformationTransfer<'a> {
         monitor: &mut dyn Monitor,
     ) -> Result<Self, Cancelled> {
         let giver = direction.side();
-        let (giving, receiving) = (meshes[giver], meshes[1 - giver]);
+        let (giving, receiving) = (meshes[giver], meshes[giver.other()]);
         let Shares { begins, shares } = shares(meshes, map, giver, monitor)?;
         Ok(Self { giving, receiving, begins, shares, poisson: Poisson::new(receiving) })
     }
@@ -96,10 +97,10 @@ struct Shares {
 fn shares(
     meshes: [&SurfaceMesh; 2],
     map: &Correspondence,
-    giver: usize,
+    giver: MeshSide,
     monitor: &mut dyn Monitor,
 ) -> Result<Shares, Cancelled> {
-    let receiver = 1 - giver;
+    let receiver = giver.other();
     let mut by_face: TiVec<FaceId, Vec<(FaceId, f64)>> = ti_vec![Vec::new(); meshes[receiver].face_count()];
     let mut cells = Cells::new(meshes, map);
     for (number, piece) in map.pieces.iter().enumerate() {
@@ -135,7 +136,7 @@ mod tests {
         let mut transfer =
             DeformationTransfer::new(mapped.meshes(), &mapped.map, direction, &mut Silent).unwrap();
         let frame: Shape = mapped.meshes()[direction.side()].positions().iter().map(|p| motion(*p)).collect();
-        (transfer.moved(&frame, &mut Silent).unwrap(), mapped.meshes()[1 - direction.side()])
+        (transfer.moved(&frame, &mut Silent).unwrap(), mapped.meshes()[direction.side().other()])
     }
 
     fn farthest(shape: &Shape, mesh: &SurfaceMesh, motion: impl Fn(DVec3) -> DVec3) -> f64 {

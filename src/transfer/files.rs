@@ -89,7 +89,7 @@ impl<'a> FileTransfer<'a> {
 
     /// The mesh that receives.
     pub fn receiver(&self) -> &'a FileMesh {
-        self.mapped.files[1 - self.direction.side()]
+        self.mapped.files[self.direction.side().other()]
     }
 
     /// Values of the giving mesh's vertices, a table or a PLY file, at those of the receiving one.
@@ -163,12 +163,9 @@ impl<'a> FileTransfer<'a> {
             [charts(source, meshes[0], MeshSide::Source)?, charts(target, meshes[1], MeshSide::Target)?];
         let given = GivenTexture { uvs: uvs.each_ref(), picture: &picture };
         let options = BakeOptions { direction: self.direction, size: raster.size, border: raster.border };
-        let receiving = match self.direction {
-            Direction::SourceToTarget => MeshSide::Target,
-            Direction::TargetToSource => MeshSide::Source,
-        };
+        let receiver = self.direction.side().other();
         let baked = baked(self.mapped, given, options, monitor);
-        let baked = baked.map_err(|e| TransferError::chart(receiving, e))?;
+        let baked = baked.map_err(|e| TransferError::chart(receiver, e))?;
         export::picture::png(&baked).map_err(|e| TransferError::Unwritten(e.to_string()))
     }
 

@@ -78,7 +78,7 @@ pub fn reshaped(meshes: [&SurfaceMesh; 2], map: &Correspondence, direction: Dire
     let images = map.vertex_images(meshes, from);
     let place = |(v, image): (VertexId, &Option<SurfacePoint>)| {
         // Every vertex has an image, as the check of a map makes sure.
-        image.map_or(meshes[from].positions()[v], |point| point.position(meshes[1 - from]))
+        image.map_or(meshes[from].positions()[v], |point| point.position(meshes[from.other()]))
     };
     meshes[from].with_positions(images.iter_enumerated().map(place).collect())
 }
@@ -93,7 +93,7 @@ pub fn shape_report(
     direction: Direction,
     monitor: &mut dyn Monitor,
 ) -> Result<ShapeReport, Cancelled> {
-    let shape = meshes[1 - direction.side()];
+    let shape = meshes[direction.side().other()];
     let mesh = reshaped(meshes, map, direction);
     let indices = [SurfaceIndex::new(&mesh), SurfaceIndex::new(shape)];
     let to_shape = distances(&mesh, &indices[1], &mut Portion::new(monitor, 0.0, 0.5))?;
@@ -171,12 +171,12 @@ fn normals(
         };
         mesh.faces().map(normal).collect()
     };
-    let [moved, wanted] = [mesh, meshes[1 - from]].map(by_face);
+    let [moved, wanted] = [mesh, meshes[from.other()]].map(by_face);
     let (mut sum, mut whole) = (0.0, 0.0);
     let mut cells = Cells::new(meshes, map);
     for piece in &map.pieces {
-        let area: f64 = cells.of(piece).iter().map(|cell| cell.areas[1 - from]).sum();
-        sum += area * moved[piece.faces[from]].distance_squared(wanted[piece.faces[1 - from]]);
+        let area: f64 = cells.of(piece).iter().map(|cell| cell.areas[from.other()]).sum();
+        sum += area * moved[piece.faces[from]].distance_squared(wanted[piece.faces[from.other()]]);
         whole += area;
     }
     let mean_square = if whole > 0.0 { sum / whole } else { 0.0 };
@@ -208,7 +208,7 @@ mod tests {
         for direction in [SourceToTarget, TargetToSource] {
             let report = shape_report(mapped.meshes(), &mapped.map, direction, &mut Silent).unwrap();
             let mesh = reshaped(mapped.meshes(), &mapped.map, direction);
-            let index = SurfaceIndex::new(mapped.meshes()[1 - direction.side()]);
+            let index = SurfaceIndex::new(mapped.meshes()[direction.side().other()]);
             assert!(mesh.positions().iter().all(|p| index.nearest(*p).distance < 1e-12));
             // A chord of an edge of 0.12 leaves a ball of radius 1 by 0.002.
             assert!(report.hausdorff > 1e-4 && report.hausdorff < 0.02, "{report:?}");

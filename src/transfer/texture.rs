@@ -116,7 +116,8 @@ pub fn baked(
     monitor: &mut dyn Monitor,
 ) -> Result<Picture, BakeError> {
     let giver = options.direction.side();
-    let [given, receiving] = [texture.uvs[giver], texture.uvs[1 - giver]];
+    let receiver = giver.other();
+    let [given, receiving] = [texture.uvs[giver], texture.uvs[receiver]];
     check_charts(receiving)?;
     let locator = PointLocator::new(mapped.meshes(), mapped.map);
     let mut texels: Vec<Option<[u8; 4]>> = vec![None; options.size * options.size];
@@ -131,7 +132,7 @@ pub fn baked(
             let colour = &mut texels[texel];
             if colour.is_none() {
                 let point = SurfacePoint::clamped(face, barycentric);
-                let image = if giver == 0 { locator.preimage(point) } else { locator.image(point) };
+                let image = locator.carried(receiver, point);
                 let uv = interpolated(given[image.face], image.barycentric);
                 *colour = Some(colour_at(texture.picture, uv));
             }
@@ -273,9 +274,10 @@ mod tests {
         let meshes = mapped.meshes();
         let locator = PointLocator::new(meshes, &mapped.map);
         for direction in [TargetToSource, SourceToTarget] {
-            let (giver, receiver) = (direction.side(), 1 - direction.side());
+            let (giver, receiver) = (direction.side(), direction.side().other());
             let (given, charts) = (shades(meshes[giver]), atlas(meshes[receiver]));
-            let uvs = if giver == 0 { [&given, &charts] } else { [&charts, &given] };
+            let mut uvs = [&charts; 2];
+            uvs[giver] = &given;
             let options = BakeOptions { direction, size: 512, border: 2 };
             let picture =
                 baked(files, GivenTexture { uvs, picture: &gradient(256) }, options, &mut Silent).unwrap();
@@ -286,7 +288,7 @@ mod tests {
                 let texel = DVec2::new((column as f64 + 0.5) / 512.0, 1.0 - (row as f64 + 0.5) / 512.0);
                 let weights = crate::math::barycentric::clamped_in(charts[f], texel);
                 let point = SurfacePoint { face: f, barycentric: weights };
-                let image = if giver == 0 { locator.preimage(point) } else { locator.image(point) };
+                let image = locator.carried(receiver, point);
                 let p = image.position(meshes[giver]);
                 let found = picture.pixels[row * 512 + column];
                 for (level, x) in [(found[0], p.x), (found[1], p.y)] {

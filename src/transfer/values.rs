@@ -9,6 +9,7 @@
 use super::cells::{Cells, integral_of_product};
 use super::mass::Mass;
 use crate::export::vertex_image::Direction;
+use crate::landmarks::MeshSide;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::numerics::conjugate_gradients::{CgError, CgOptions, CgWorkspace};
@@ -56,7 +57,7 @@ const PROJECTION: CgOptions = CgOptions { tolerance: 1e-13, max_iterations: 400 
 pub struct ValueCarrier<'a> {
     meshes: [&'a SurfaceMesh; 2],
     map: &'a Correspondence,
-    giver: usize,
+    giver: MeshSide,
 }
 
 impl<'a> ValueCarrier<'a> {
@@ -70,7 +71,7 @@ impl<'a> ValueCarrier<'a> {
     }
 
     fn receiving(&self) -> &'a SurfaceMesh {
-        self.meshes[1 - self.giver]
+        self.meshes[self.giver.other()]
     }
 
     /// Functions of the giving mesh as functions of the receiving one.
@@ -112,7 +113,7 @@ impl<'a> ValueCarrier<'a> {
         columns: &[Values],
         monitor: &mut dyn Monitor,
     ) -> Result<(Mass<'a>, Vec<Values>), Cancelled> {
-        let (giver, receiver) = (self.giver, 1 - self.giver);
+        let (giver, receiver) = (self.giver, self.giver.other());
         let mut mass = Mass::zero(self.receiving());
         let mut loads: Vec<Values> = vec![ti_vec![0.0; self.receiving().vertex_count()]; columns.len()];
         let mut cells = Cells::new(self.meshes, self.map);
@@ -157,7 +158,7 @@ impl<'a> ValueCarrier<'a> {
         if carrying == Carrying::Sample {
             return Ok(self.images().into_iter().map(|image| self.nearest_label(labels, image)).collect());
         }
-        let (giver, receiver) = (self.giver, 1 - self.giver);
+        let (giver, receiver) = (self.giver, self.giver.other());
         let mut shares: TiVec<VertexId, Vec<(i64, f64)>> =
             ti_vec![Vec::new(); self.receiving().vertex_count()];
         let mut cells = Cells::new(self.meshes, self.map);
@@ -169,7 +170,7 @@ impl<'a> ValueCarrier<'a> {
             let onto = self.receiving().triangles()[piece.faces[receiver]];
             let from = self.giving().triangles()[piece.faces[giver]].map(|v| labels[v]);
             for cell in cells.of(piece) {
-                let corner_weights = |side: usize, k: usize| cell.weights[side].map(|w| w[k]);
+                let corner_weights = |side: MeshSide, k: usize| cell.weights[side].map(|w| w[k]);
                 for (vertex, hat) in onto.into_iter().zip([0, 1, 2].map(|k| corner_weights(receiver, k))) {
                     for (j, label) in from.into_iter().enumerate() {
                         let share = integral_of_product(cell.areas[receiver], hat, corner_weights(giver, j));
@@ -183,7 +184,7 @@ impl<'a> ValueCarrier<'a> {
 
     /// The image of each vertex of the receiving mesh.
     fn images(&self) -> TiVec<VertexId, SurfacePoint> {
-        let images = self.map.vertex_images(self.meshes, 1 - self.giver);
+        let images = self.map.vertex_images(self.meshes, self.giver.other());
         // Every vertex is a corner of pieces, as the check of a map makes sure.
         let first = SurfacePoint { face: FaceId(0), barycentric: [1.0, 0.0, 0.0] };
         images.into_iter().map(|image| image.unwrap_or(first)).collect()

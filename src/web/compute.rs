@@ -1,11 +1,12 @@
 //! The pipeline in the worker.
 
 use super::page_job::read_job;
-use super::{failure, output_file};
+use super::{failure, mesh_side, output_file};
 use crate::demo::true_map;
 use crate::io::landmark_file;
 use crate::job::{BasePicture, Job, JobError, LookFiles, OutputKind, planned_stages};
-use crate::monitor::{Cancelled, MapPreview, Monitor, PlannedStage, PreviewOf, Progress, Stage, Step};
+use crate::landmarks::MeshSide;
+use crate::monitor::{Cancelled, MapPreview, Monitor, PlannedStage, Progress, Stage, Step};
 use crate::pipeline::{Choices, MapResult, PipelineOptions};
 use crate::surface_map::measures::transfer::CommonMesh;
 use glam::{DVec2, DVec3};
@@ -146,7 +147,7 @@ impl Monitor for Messenger<'_> {
         if self.previewing > PREVIEW_SHARE * (now - self.begun) {
             return;
         }
-        if let Some(places) = preview.images(PreviewOf::Source) {
+        if let Some(places) = preview.images(MeshSide::Source) {
             let places = js_sys::Float32Array::from(&flat3(&places)[..]);
             // A page that does not listen is not a reason to stop.
             let _ = self.listener.preview(places);
@@ -298,15 +299,15 @@ pub(super) fn flat3(points: &[DVec3]) -> Vec<f32> {
 #[wasm_bindgen]
 impl MapOutput {
     /// Positions of the common subdivision on the source (0) or the target (1), three numbers a point.
-    pub fn positions(&self, side: usize) -> Vec<f32> {
+    pub fn positions(&self, side: usize) -> Result<Vec<f32>, JsValue> {
         let common = &self.shown.common;
-        flat3(if side == 0 { &common.source_positions } else { &common.target_positions })
+        Ok(flat3([&common.source_positions, &common.target_positions][mesh_side(side)?]))
     }
 
     /// Unit normals on the source (0) or the target (1).
-    pub fn normals(&self, side: usize) -> Vec<f32> {
+    pub fn normals(&self, side: usize) -> Result<Vec<f32>, JsValue> {
         let common = &self.shown.common;
-        flat3(if side == 0 { &common.source_normals } else { &common.target_normals })
+        Ok(flat3([&common.source_normals, &common.target_normals][mesh_side(side)?]))
     }
 
     /// Texture coordinates, two numbers a point.
@@ -330,26 +331,27 @@ impl MapOutput {
     }
 
     /// The face of the source (0) or the target (1) in which each triangle lies; empty for the thesis' method.
-    pub fn faces(&self, side: usize) -> Vec<u32> {
-        self.shown.common.faces.iter().map(|faces| faces[side.min(1)].0).collect()
+    pub fn faces(&self, side: usize) -> Result<Vec<u32>, JsValue> {
+        let side = mesh_side(side)?;
+        Ok(self.shown.common.faces.iter().map(|faces| faces[side].0).collect())
     }
 
     /// Points of all patch lines on one side.
     #[wasm_bindgen(js_name = linePoints)]
-    pub fn line_points(&self, side: usize) -> Vec<f32> {
-        self.shown.patch_lines[side.min(1)].iter().flat_map(|line| flat3(line)).collect()
+    pub fn line_points(&self, side: usize) -> Result<Vec<f32>, JsValue> {
+        Ok(self.shown.patch_lines[mesh_side(side)?].iter().flat_map(|line| flat3(line)).collect())
     }
 
     /// Where each patch line starts among the points, and one past the end.
     #[wasm_bindgen(js_name = lineStarts)]
-    pub fn line_starts(&self, side: usize) -> Vec<u32> {
+    pub fn line_starts(&self, side: usize) -> Result<Vec<u32>, JsValue> {
         let mut starts = vec![0];
         let mut end = 0;
-        for line in &self.shown.patch_lines[side.min(1)] {
+        for line in &self.shown.patch_lines[mesh_side(side)?] {
             end += line.len() as u32;
             starts.push(end);
         }
-        starts
+        Ok(starts)
     }
 
     /// Curvature of each landmark's cone, in radians.

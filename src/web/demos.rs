@@ -1,7 +1,7 @@
 //! Demos as files, for the page and for the workers of maps.
 
 #[cfg(feature = "web-page")]
-use super::{failure, loaded_mesh::LoadedMesh};
+use super::{failure, loaded_mesh::LoadedMesh, mesh_side};
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 #[cfg(feature = "web-page")]
 use crate::io::landmark_formats::Space;
@@ -52,7 +52,7 @@ impl DemoFiles {
     /// # Errors
     /// `{"code": "mesh", "message"}` where the demo is none that can be mapped.
     pub fn mesh(&self, side: usize) -> Result<LoadedMesh, JsValue> {
-        let mesh = self.meshes.get(side).ok_or_else(|| failure("mesh", "a demo has two meshes"))?;
+        let mesh = &self.meshes[mesh_side(side)?];
         let checked = closed_genus_zero(&PolygonSoup::from(mesh)).map_err(|e| failure("mesh", e))?;
         // The coordinate system of files that name none.
         Ok(LoadedMesh::new(checked, Space::Lps, None))

@@ -1,12 +1,12 @@
 //! What files hold and need, before a mesh is read; and whether landmarks fit a mesh.
 
-use super::failure;
 use super::loaded_mesh::LoadedMesh;
+use super::{failure, mesh_side};
 use crate::io;
 use crate::io::gltf_parts::{self, GltfParts};
 use crate::io::landmark_file;
 use crate::io::material_set::{self, PackedMaterials};
-use crate::landmarks::{self, MeshSide};
+use crate::landmarks;
 use wasm_bindgen::prelude::*;
 
 /// The files that a mesh file names and needs beside it: buffers, and pictures of textures.
@@ -111,8 +111,7 @@ pub fn mesh_endings() -> String {
 pub fn check_landmarks(mesh: &LoadedMesh, side: usize, bytes: &[u8]) -> Result<(), JsValue> {
     use landmarks::LandmarkError::{MissingFace, MissingVertex, UnusedVertex};
     let file = landmark_file::read(bytes).map_err(|e| failure("landmarks", e))?;
-    let side = if side == 0 { MeshSide::Source } else { MeshSide::Target };
-    landmarks::check_side(&mesh.checked, side, &file.pairs).map_err(|e| match e {
+    landmarks::check_side(&mesh.checked, mesh_side(side)?, &file.pairs).map_err(|e| match e {
         MissingFace { .. } | MissingVertex { .. } | UnusedVertex { .. } => failure("other-meshes", e),
         _ => failure("landmarks", e),
     })

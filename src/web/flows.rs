@@ -1,9 +1,10 @@
 //! The flows of both meshes from step to step, in a worker of their own.
 
 use super::compute::{Messenger, RunListener};
-use super::failure;
 use super::page_job::read_job;
+use super::{failure, mesh_side};
 use crate::job::{Job, JobError};
+use crate::landmarks::MeshSide;
 use crate::mesh::packing::Packer;
 use crate::mesh::repair::Defects;
 use crate::mesh::{FaceId, SurfaceMesh, VertexId};
@@ -37,7 +38,7 @@ struct Stops {
 }
 
 impl Stops {
-    fn new(job: &Job, side: usize, record: &FlowRecord) -> Self {
+    fn new(job: &Job, side: MeshSide, record: &FlowRecord) -> Self {
         let (mesh, positions) = (job.mapped_meshes()[side], &job.positions()[side]);
         let corners = |&f: &FaceId| mesh.triangles()[f].map(|v| positions[v.index()]);
         let corners: Vec<_> = record.degenerate_faces.iter().map(corners).collect();
@@ -70,11 +71,11 @@ pub fn record_flows(
     let options = PipelineOptions { flow, ..PipelineOptions::default() };
     let records =
         job.recorded_flows(cones, &options, &mut messenger).map_err(|error| failed(error.into()))?;
-    let stops = [0, 1].map(|side| Stops::new(&job, side, &records[side]));
+    let stops = MeshSide::BOTH.map(|side| Stops::new(&job, side, &records[side]));
     let areas = job.mapped_meshes().map(SurfaceMesh::vertex_areas);
-    let curvatures = [0, 1].map(|side| records[side].curvature_by_area(&areas[side]));
-    let radii =
-        [0, 1].map(|side| if scheme.has_circles() { records[side].radii(&areas[side]) } else { Vec::new() });
+    let curvatures = MeshSide::BOTH.map(|side| records[side].curvature_by_area(&areas[side]));
+    let radii = MeshSide::BOTH
+        .map(|side| if scheme.has_circles() { records[side].radii(&areas[side]) } else { Vec::new() });
     Ok(RecordedFlows { records, vertices: job.vertex_counts(), curvatures, radii, stops })
 }
 
@@ -83,9 +84,10 @@ impl RecordedFlows {
     /// The steps of the source's flow (0) or of the target's (1): JSON `{"converged", "moments", "stops"}`, the moments a list of `{"step",
     /// "residual", "cgIterations", "edgeFlips"}` from before the first step on, the stops the numbers of the faces that the flow stopped
     /// at, in the triangulated file.
-    pub fn steps(&self, side: usize) -> String {
-        let FlowRecord { moments, converged, .. } = &self.records[side.min(1)];
-        let stops = &self.stops[side.min(1)].faces;
+    pub fn steps(&self, side: usize) -> Result<String, JsValue> {
+        let side = mesh_side(side)?;
+        let FlowRecord { moments, converged, .. } = &self.records[side];
+        let stops = &self.stops[side].faces;
         let told = moments.iter().map(|moment| {
             json!({
                 "step": moment.step,
@@ -94,37 +96,38 @@ impl RecordedFlows {
                 "edgeFlips": moment.edge_flips,
             })
         });
-        json!({ "converged": converged, "moments": told.collect::<Vec<_>>(), "stops": stops }).to_string()
+        let told = json!({ "converged": converged, "moments": told.collect::<Vec<_>>(), "stops": stops });
+        Ok(told.to_string())
     }
 
     /// The radius of the circle at each vertex of the checked mesh before the first step, in units of the root of the mesh's area; it grows
     /// with the conformal factor. Empty where the structure has no circles.
-    pub fn radii(&self, side: usize) -> Vec<f32> {
-        let side = side.min(1);
-        self.radii[side].iter().take(self.vertices[side]).map(|&r| r as f32).collect()
+    pub fn radii(&self, side: usize) -> Result<Vec<f32>, JsValue> {
+        let side = mesh_side(side)?;
+        Ok(self.radii[side].iter().take(self.vertices[side]).map(|&r| r as f32).collect())
     }
 
     /// The faces that the flow stopped at, in the order of their numbers, as bytes of which `unpackDefects` makes what a view shows.
     #[wasm_bindgen(js_name = packedStops)]
-    pub fn packed_stops(&self, side: usize) -> Vec<u8> {
+    pub fn packed_stops(&self, side: usize) -> Result<Vec<u8>, JsValue> {
         let mut packer = Packer::default();
-        self.stops[side.min(1)].shown.pack(&mut packer);
-        packer.into_bytes()
+        self.stops[mesh_side(side)?].shown.pack(&mut packer);
+        Ok(packer.into_bytes())
     }
 
     /// Logarithms of the conformal factor, moment after moment, by vertex of the checked mesh.
     #[wasm_bindgen(js_name = logFactors)]
-    pub fn log_factors(&self, side: usize) -> Vec<f32> {
-        let side = side.min(1);
-        let moments = self.records[side].moments.iter();
-        moments.flat_map(|m| m.log_factors.raw[..self.vertices[side]].iter().map(|&u| u as f32)).collect()
+    pub fn log_factors(&self, side: usize) -> Result<Vec<f32>, JsValue> {
+        let side = mesh_side(side)?;
+        let moments = self.records[side].moments.iter().map(|moment| &moment.log_factors.raw);
+        Ok(moments.flat_map(|factors| factors[..self.vertices[side]].iter().map(|&u| u as f32)).collect())
     }
 
     /// Gaussian curvatures by vertex of the checked mesh, in units of that of a sphere of the same area: before the first step (0) or at the
     /// last moment (1).
-    pub fn curvatures(&self, side: usize, moment: usize) -> Vec<f32> {
-        let side = side.min(1);
+    pub fn curvatures(&self, side: usize, moment: usize) -> Result<Vec<f32>, JsValue> {
+        let side = mesh_side(side)?;
         let curvatures = &self.curvatures[side][moment.min(1)];
-        curvatures.iter().take(self.vertices[side]).map(|&k| k as f32).collect()
+        Ok(curvatures.iter().take(self.vertices[side]).map(|&k| k as f32).collect())
     }
 }

@@ -1,7 +1,7 @@
 //! Landmark files of many programs, onto the meshes of the page and back.
 
-use super::failure;
 use super::loaded_mesh::LoadedMesh;
+use super::{failure, mesh_side};
 use crate::io;
 use crate::io::landmark_file::{self, LandmarkFile, LandmarkPoint};
 use crate::io::landmark_formats::{self, Content, Holds, LandmarkFormat, detect};
@@ -9,7 +9,7 @@ use crate::landmark_exchange::{
     ExchangeError, GivenFile, PairLandmarks, PlacedMark, Remark, Surface, read_pairs, read_side, remarks_on,
     write_pairs, write_side,
 };
-use crate::landmarks::{MeshSide, check_side};
+use crate::landmarks::check_side;
 use serde::Serialize;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
@@ -81,10 +81,6 @@ fn exchange_failure(error: &ExchangeError) -> JsValue {
     JsValue::from_str(&message.to_string())
 }
 
-fn side_of(number: usize) -> MeshSide {
-    if number == 0 { MeshSide::Source } else { MeshSide::Target }
-}
-
 /// The formats of landmark files: JSON, `LandmarkFormatInfo[]`.
 ///
 /// # Errors
@@ -143,7 +139,7 @@ pub fn read_landmark_side(
     mesh: &LoadedMesh,
     side: usize,
 ) -> Result<String, JsValue> {
-    let side = side_of(side);
+    let side = mesh_side(side)?;
     let read =
         read_side(GivenFile { name, bytes }, mesh.surface(), side).map_err(|e| exchange_failure(&e))?;
     let points = read.marks.iter().filter_map(|mark| mark.point);
@@ -219,5 +215,5 @@ pub fn write_landmark_side(
     side: usize,
 ) -> Result<Vec<u8>, JsValue> {
     let (format, file) = format_and_file(format, landmarks)?;
-    write_side(format, &file, mesh.surface(), side_of(side)).map_err(|e| failure("landmarks", e))
+    write_side(format, &file, mesh.surface(), mesh_side(side)?).map_err(|e| failure("landmarks", e))
 }

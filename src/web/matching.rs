@@ -1,10 +1,11 @@
 //! Landmarks that the program finds, in a worker.
 
 use super::compute::{Messenger, RunListener};
-use super::failure;
+use super::{failure, mesh_side};
 use crate::io::landmark_file;
 use crate::job::{Matched, MeshFaults, ReadMesh, match_meshes, read_mesh};
 use crate::landmark_matching::{CoarsePicture, MatchOptions};
+use crate::landmarks::MeshSide;
 use crate::mesh::repair::RepairOptions;
 use crate::monitor::{PlannedStage, Stage};
 use glam::DVec3;
@@ -32,16 +33,17 @@ impl FoundLandmarks {
 
     /// Where the vertices of the coarse source are on the source (0) or on the target (1), three coordinates each: the middle of
     /// their bounding box is 0 and half its diagonal 1. Empty for a candidate that there is not.
-    pub fn places(&self, candidate: usize, side: usize) -> Vec<f32> {
+    pub fn places(&self, candidate: usize, side: usize) -> Result<Vec<f32>, JsValue> {
+        let side = mesh_side(side)?;
         let places = self.pictures.get(candidate).map(|picture| match side {
-            0 => picture.source.positions().iter().copied().collect(),
-            _ => picture.images(),
+            MeshSide::Source => picture.source.positions().iter().copied().collect(),
+            MeshSide::Target => picture.images(),
         });
         let places = places.unwrap_or_default();
         let corner = |of: fn(DVec3, DVec3) -> DVec3| places.iter().copied().reduce(of).unwrap_or_default();
         let [low, high] = [corner(DVec3::min), corner(DVec3::max)];
         let (middle, half) = (0.5 * (low + high), 0.5 * low.distance(high));
-        places.iter().flat_map(|&p| ((p - middle) / half).as_vec3().to_array()).collect()
+        Ok(places.iter().flat_map(|&p| ((p - middle) / half).as_vec3().to_array()).collect())
     }
 }
 

@@ -3,11 +3,14 @@
 //! It makes two modules, so that the page need not wait for what reads meshes and makes maps: `web-page` has the demos, landmark
 //! files and the views, `web-core` reads, checks and repairs meshes, makes maps and opens them, in workers. Meshes go from the
 //! one to the other packed.
+//!
+//! `side` is the number of a mesh wherever the page gives it: 0 the source, 1 the target. Any other is an error with the code `side`.
 
 mod demos;
 mod failure;
 mod loaded_mesh;
 mod plane_numbers;
+mod side_number;
 
 #[cfg(feature = "web-page")]
 mod defects;
@@ -56,3 +59,4 @@ mod suggestions;
 mod transfer;
 
 use failure::failure;
+use side_number::mesh_side;

@@ -1,8 +1,8 @@
 //! The flat cone metrics of both meshes in the plane, in a worker that stays while they are looked at.
 
 use super::compute::{Messenger, RunListener, flat3};
-use super::failure;
 use super::page_job::read_job;
+use super::{failure, mesh_side};
 use crate::job::{Job, JobError};
 use crate::mesh::FaceId;
 use crate::monitor::{PlannedStage, Stage};
@@ -43,37 +43,39 @@ pub fn flat_planes(
 #[wasm_bindgen]
 impl FlatPlanes {
     /// Triangles of the mapped source (0) or target (1): three vertices each.
-    pub fn triangles(&self, side: usize) -> Vec<u32> {
-        self.job.mapped_meshes()[side.min(1)].triangles().iter().flatten().map(|v| v.0).collect()
+    pub fn triangles(&self, side: usize) -> Result<Vec<u32>, JsValue> {
+        let mesh = self.job.mapped_meshes()[mesh_side(side)?];
+        Ok(mesh.triangles().iter().flatten().map(|v| v.0).collect())
     }
 
     /// Where its vertices are in the coordinates of the checked mesh, three numbers each.
-    pub fn positions(&self, side: usize) -> Vec<f32> {
-        flat3(&self.job.positions()[side.min(1)])
+    pub fn positions(&self, side: usize) -> Result<Vec<f32>, JsValue> {
+        Ok(flat3(&self.job.positions()[mesh_side(side)?]))
     }
 
     /// The face of the checked mesh that contains each triangle.
     #[wasm_bindgen(js_name = checkedFaces)]
-    pub fn checked_faces(&self, side: usize) -> Vec<u32> {
-        self.job.checked_faces()[side.min(1)].iter().map(|f| f.0).collect()
+    pub fn checked_faces(&self, side: usize) -> Result<Vec<u32>, JsValue> {
+        Ok(self.job.checked_faces()[mesh_side(side)?].iter().map(|f| f.0).collect())
     }
 
     /// The vertex of each landmark.
     #[wasm_bindgen(js_name = landmarkVertices)]
-    pub fn landmark_vertices(&self, side: usize) -> Vec<u32> {
-        self.job.landmark_vertices()[side.min(1)].iter().map(|v| v.0).collect()
+    pub fn landmark_vertices(&self, side: usize) -> Result<Vec<u32>, JsValue> {
+        Ok(self.job.landmark_vertices()[mesh_side(side)?].iter().map(|v| v.0).collect())
     }
 
     /// The radius of each vertex's circle, in units of the plane.
-    pub fn radii(&self, side: usize) -> Vec<f32> {
-        self.surfaces[side.min(1)].radii().iter().map(|&r| r as f32).collect()
+    pub fn radii(&self, side: usize) -> Result<Vec<f32>, JsValue> {
+        Ok(self.surfaces[mesh_side(side)?].radii().iter().map(|&r| r as f32).collect())
     }
 
     /// The layout of the source (0) or the target (1) grown from one of its triangles; from the first one where there is no such.
-    pub fn grow(&self, side: usize, triangle: u32) -> GrownPlane {
-        let mesh = self.job.mapped_meshes()[side.min(1)];
+    pub fn grow(&self, side: usize, triangle: u32) -> Result<GrownPlane, JsValue> {
+        let side = mesh_side(side)?;
+        let mesh = self.job.mapped_meshes()[side];
         let seed = FaceId(if (triangle as usize) < mesh.face_count() { triangle } else { 0 });
-        GrownPlane { layout: self.surfaces[side.min(1)].grown_from(mesh, seed) }
+        Ok(GrownPlane { layout: self.surfaces[side].grown_from(mesh, seed) })
     }
 }
 

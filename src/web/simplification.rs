@@ -1,9 +1,10 @@
 //! Both meshes on their way to their landmarks, in a worker of their own.
 
 use super::compute::{Messenger, RunListener, flat3};
-use super::failure;
 use super::page_job::read_job;
+use super::{failure, mesh_side};
 use crate::job::{CarriedSimplification, JobError, MapFiles, OpenMap};
+use crate::landmarks::MeshSide;
 use crate::monitor::{PlannedStage, Stage};
 use crate::pipeline::{Lead, SimplificationStage};
 use glam::DVec3;
@@ -50,9 +51,9 @@ pub fn record_carried_simplification(
     listener: &RunListener,
 ) -> Result<Simplifications, JsValue> {
     let (side, lead) = match from {
-        "source" => (0, Lead::Own),
-        "target" => (1, Lead::Own),
-        "both" => (0, Lead::Both),
+        "source" => (MeshSide::Source, Lead::Own),
+        "target" => (MeshSide::Target, Lead::Own),
+        "both" => (MeshSide::Source, Lead::Both),
         _ => return Err(failure("options", format!("\"{from}\" is nothing to simplify from"))),
     };
     let mut messenger = Messenger::new(listener);
@@ -69,24 +70,24 @@ pub fn record_carried_simplification(
 #[wasm_bindgen]
 impl Simplifications {
     /// Where the vertices of the source (0) or the target (1) are, three numbers each.
-    pub fn positions(&self, side: usize) -> Vec<f32> {
-        flat3(&self.positions[side.min(1)])
+    pub fn positions(&self, side: usize) -> Result<Vec<f32>, JsValue> {
+        Ok(flat3(&self.positions[mesh_side(side)?]))
     }
 
     /// All collapses in their order, two vertices each: the one that went, and the one that it went onto.
-    pub fn collapses(&self, side: usize) -> Vec<u32> {
-        let stages = self.stages[side.min(1)].iter();
-        stages.flat_map(|stage| stage.collapses.iter().flatten().map(|v| v.0)).collect()
+    pub fn collapses(&self, side: usize) -> Result<Vec<u32>, JsValue> {
+        let stages = self.stages[mesh_side(side)?].iter();
+        Ok(stages.flat_map(|stage| stage.collapses.iter().flatten().map(|v| v.0)).collect())
     }
 
     /// The triangles of all stages, one stage after the other, the whole mesh first.
-    pub fn triangles(&self, side: usize) -> Vec<u32> {
-        let stages = self.stages[side.min(1)].iter();
-        stages.flat_map(|stage| stage.triangles.iter().flatten().map(|v| v.0)).collect()
+    pub fn triangles(&self, side: usize) -> Result<Vec<u32>, JsValue> {
+        let stages = self.stages[mesh_side(side)?].iter();
+        Ok(stages.flat_map(|stage| stage.triangles.iter().flatten().map(|v| v.0)).collect())
     }
 
     /// How many triangles each stage has.
-    pub fn counts(&self, side: usize) -> Vec<u32> {
-        self.stages[side.min(1)].iter().map(|stage| stage.triangles.len() as u32).collect()
+    pub fn counts(&self, side: usize) -> Result<Vec<u32>, JsValue> {
+        Ok(self.stages[mesh_side(side)?].iter().map(|stage| stage.triangles.len() as u32).collect())
     }
 }

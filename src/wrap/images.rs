@@ -3,6 +3,7 @@
 use super::input::WrapInput;
 use crate::math::scalar::{ln, max};
 use crate::mesh::{SurfaceMesh, VertexId};
+use crate::mesh_side::MeshSide;
 use glam::{DMat3, DVec3};
 use typed_index_collections::TiVec;
 
@@ -19,7 +20,7 @@ pub(super) struct Images {
 impl Images {
     /// Reads them off the map.
     pub fn new(input: &WrapInput<'_>) -> Self {
-        let images = input.map.vertex_images([input.base, input.scan], 0);
+        let images = input.map.vertex_images([input.base, input.scan], MeshSide::Source);
         let is_skin: TiVec<VertexId, bool> =
             input.base.vertices().map(|v| input.base.star(v).any(|h| input.is_base_skin(h.face()))).collect();
         let is_covered = images

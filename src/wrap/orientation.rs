@@ -5,6 +5,7 @@
 
 use super::input::WrapInput;
 use crate::mesh::{FaceId, SurfaceMesh, VertexId};
+use crate::mesh_side::MeshSide;
 use crate::surface_map::correspondence::share;
 use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
@@ -28,8 +29,8 @@ impl Orientation {
             if caps.are_skin(piece.faces) != [true; 2] {
                 continue;
             }
-            map.ring(base, 0, piece, &mut rings[0]);
-            map.ring(scan, 1, piece, &mut rings[1]);
+            map.ring(base, MeshSide::Source, piece, &mut rings[0]);
+            map.ring(scan, MeshSide::Target, piece, &mut rings[1]);
             let [here, there] = rings.each_ref().map(|ring| share(ring));
             let [p, q, r] = scan.corners(piece.faces[1]);
             vectors[piece.faces[0]] += (q - p).cross(r - p) * there;

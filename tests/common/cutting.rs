@@ -1,6 +1,7 @@
 //! Meshes that are cut by planes, as at a neck.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
+use conemap::landmarks::MeshSide;
 use conemap::math::scalar::{cos, sin};
 use conemap::mesh::check::CheckedMesh;
 use conemap::mesh::repair::{RepairOptions, repaired};
@@ -233,13 +234,14 @@ pub fn rim_distances(sides: &[Open; 2], result: &MapResult) -> [f64; 2] {
     let map = result.correspondence.as_ref().expect("a map of two meshes has pieces");
     let meshes: [&SurfaceMesh; 2] = [&sides[0].checked.mesh, &sides[1].checked.mesh];
     let mut worst = [0.0_f64; 2];
-    for k in 0..2 {
-        let (own, other) = (&sides[k], &sides[1 - k]);
-        let images = map.vertex_images(meshes, k);
-        let unit = 1.0 / meshes[1 - k].area().sqrt();
+    for side in MeshSide::BOTH {
+        let (own, other) = (&sides[side], &sides[side.other()]);
+        let images = map.vertex_images(meshes, side);
+        let onto = meshes[side.other()];
+        let unit = 1.0 / onto.area().sqrt();
         let far = |v: u32| {
             let image = images[own.vertex(v)].expect("every vertex has an image");
-            unit * other.cut.distance_to_rim(image.position(meshes[1 - k]))
+            unit * other.cut.distance_to_rim(image.position(onto))
         };
         let (mut sum, mut length, mut largest) = (0.0, 0.0, 0.0_f64);
         for ends in &own.cut.rim {

@@ -55,7 +55,7 @@ pub fn mirrored(mesh: &SurfaceMesh) -> SurfaceMesh {
 /// The pairs that are to be exchanged.
 pub fn swaps(findings: &[Finding]) -> Vec<[usize; 2]> {
     let swap = |finding: &Finding| match finding.repair() {
-        Repair::Swap { pairs } => Some(pairs),
+        Repair::Swap { pairs } => Some(pairs.map(LandmarkId::index)),
         _ => None,
     };
     findings.iter().filter_map(swap).collect()

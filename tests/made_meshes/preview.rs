@@ -1,8 +1,8 @@
 //! Previews of a map that is being made.
 
 use conemap::demo;
-use conemap::landmarks::Landmarks;
-use conemap::monitor::{Cancelled, MapPreview, Monitor, PreviewOf, Silent, Stage, Step};
+use conemap::landmarks::{Landmarks, MeshSide};
+use conemap::monitor::{Cancelled, MapPreview, Monitor, Silent, Stage, Step};
 use conemap::pipeline::{MapInput, PipelineOptions, run};
 use glam::DVec3;
 
@@ -19,8 +19,8 @@ impl Monitor for Looker {
     }
 
     fn preview(&mut self, preview: &dyn MapPreview) {
-        let images = preview.images(PreviewOf::Source).expect("every preview can be told");
-        assert!(preview.images(PreviewOf::Target).is_some());
+        let images = preview.images(MeshSide::Source).expect("every preview can be told");
+        assert!(preview.images(MeshSide::Target).is_some());
         self.previews.push((self.stage, images));
     }
 

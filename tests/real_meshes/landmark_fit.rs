@@ -4,7 +4,7 @@ use crate::common;
 use crate::data::{self, pair_names};
 use crate::fit::{self, Case, mirrored, only_the_mirror_image_raises_an_alarm, swaps};
 use conemap::landmark_fit::{Finding, Repair};
-use conemap::landmarks::{LandmarkId, Landmarks};
+use conemap::landmarks::{LandmarkId, Landmarks, MeshSide};
 use conemap::layout::LandmarkDistances;
 use conemap::mesh::VertexId;
 use conemap::monitor::Silent;
@@ -71,7 +71,8 @@ fn exchanged_left_and_right_partners_are_named_first(data: &Path) {
             let mut landmarks = case.landmarks.clone();
             landmarks.target.raw.swap(a, b);
             let findings = case.findings(&landmarks);
-            let named = findings.first().is_some_and(|f| f.repair() == Repair::Swap { pairs: [a, b] });
+            let pairs = [a, b].map(LandmarkId::from);
+            let named = findings.first().is_some_and(|f| f.repair() == Repair::Swap { pairs });
             assert!(named || name != "cat-lion", "{name}, {a} and {b}: {findings:?}");
             tried += 1;
             if !named {
@@ -102,7 +103,7 @@ fn an_exchange_in_a_mirrored_set_is_named_after_the_mirror(data: &Path) {
     let mut landmarks = case.landmarks.clone();
     landmarks.target.raw.swap(9, 13);
     let repairs: Vec<Repair> = case.findings(&landmarks).iter().map(Finding::repair).collect();
-    assert_eq!(repairs, [Repair::MirrorTarget, Repair::Swap { pairs: [9, 13] }]);
+    assert_eq!(repairs, [Repair::MirrorTarget, Repair::Swap { pairs: [LandmarkId(9), LandmarkId(13)] }]);
 }
 
 fn a_target_on_the_wrong_limb_is_named(data: &Path) {
@@ -112,16 +113,16 @@ fn a_target_on_the_wrong_limb_is_named(data: &Path) {
             .expect("nobody stops");
         let mut found = 0;
         let n = case.landmarks.len();
-        for pair in 0..n {
+        for pair in case.landmarks.target.keys() {
             let far = |v: &VertexId| {
-                distances.field(1, pair.into())[*v] > 0.6 && !case.landmarks.target.contains(v)
+                distances.field(MeshSide::Target, pair)[*v] > 0.6 && !case.landmarks.target.contains(v)
             };
-            let turned = (0..800).map(|k| VertexId((k * 37 + pair as u32 * 101) % 800));
+            let turned = (0..800).map(|k| VertexId((k * 37 + pair.0 * 101) % 800));
             let wrong = turned.into_iter().find(far).expect("the body is longer than that");
             let mut landmarks = case.landmarks.clone();
-            landmarks.target[LandmarkId::from(pair)] = wrong;
+            landmarks.target[pair] = wrong;
             let findings = case.findings(&landmarks);
-            assert!(swaps(&findings).is_empty(), "{name}, pair {pair}: {findings:?}");
+            assert!(swaps(&findings).is_empty(), "{name}, {pair:?}: {findings:?}");
             found += usize::from(findings.iter().any(|f| f.repair() == Repair::Check { pair }));
         }
         assert!(found * 10 >= n * 9, "{name}: {found} of {n}");

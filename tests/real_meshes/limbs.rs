@@ -1,14 +1,15 @@
 //! Limbs without a landmark on real animals.
 
 use crate::common;
+use conemap::landmarks::MeshSide::{self, Source, Target};
 use conemap::monitor::Silent;
 use conemap::pipeline::{FindingKind, MapInput, findings};
 use std::path::Path;
 
 tests![tails_without_a_landmark_are_named_and_nothing_else];
 
-/// Sides (0 source, 1 target) of a pair on which limbs are named, with how many.
-fn named(data: &Path, name: &str) -> Vec<(usize, usize)> {
+/// The meshes of a pair on which limbs are named, with how many.
+fn named(data: &Path, name: &str) -> Vec<(MeshSide, usize)> {
     let pair = common::read_pair(data, name);
     let landmarks = common::landmarks(&pair);
     let input = MapInput::new(&pair.source, &pair.target, &landmarks);
@@ -22,11 +23,11 @@ fn tails_without_a_landmark_are_named_and_nothing_else(data: &Path) {
     for name in ["cat-cat1", "cat-dog", "cat-lion", "horse-camel", "horse-horse05"] {
         assert_eq!(named(data, name), [], "{name}");
     }
-    let expected: [(&str, &[(usize, usize)]); 4] = [
-        ("shrec07-381-383", &[(1, 1)]),
-        ("shrec07-385-387", &[(0, 1)]),
-        ("shrec07-392-394", &[(1, 1)]),
-        ("shrec07-397-400", &[(0, 1), (1, 1)]),
+    let expected: [(&str, &[(MeshSide, usize)]); 4] = [
+        ("shrec07-381-383", &[(Target, 1)]),
+        ("shrec07-385-387", &[(Source, 1)]),
+        ("shrec07-392-394", &[(Target, 1)]),
+        ("shrec07-397-400", &[(Source, 1), (Target, 1)]),
     ];
     for (name, sides) in expected {
         assert_eq!(named(data, name), sides, "{name}");

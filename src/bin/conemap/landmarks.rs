@@ -11,9 +11,6 @@ use conemap::mesh::check::CheckedMesh;
 use serde_json::json;
 use std::path::Path;
 
-/// Both sides in the order of the command line.
-const SIDES: [MeshSide; 2] = [MeshSide::Source, MeshSide::Target];
-
 /// Reads landmark files onto their meshes, prints how far their points were off, and writes them in other formats.
 pub fn run(arguments: &LandmarksArguments) -> Result<(), Failure> {
     let paths = [&arguments.source, &arguments.target];
@@ -21,7 +18,7 @@ pub fn run(arguments: &LandmarksArguments) -> Result<(), Failure> {
     let (source, target) = (mesh(paths[0], arguments.faults)?, mesh(paths[1], arguments.faults)?);
     let surfaces = [&source, &target].map(|(mesh, space)| Surface { mesh, space: *space });
     let mut landmarks = input::landmarks(&arguments.inputs, paths.map(|path| &**path), surfaces)?;
-    for (surface, side) in surfaces.into_iter().zip(SIDES) {
+    for (surface, side) in surfaces.into_iter().zip(MeshSide::BOTH) {
         check_side(surface.mesh, side, &landmarks.file.pairs)?;
     }
     let [source_name, target_name] =
@@ -56,7 +53,7 @@ fn write(
             outputs::write(path, &bytes)?;
         }
         paths => {
-            for ((path, surface), side) in paths.iter().zip(surfaces).zip(SIDES) {
+            for ((path, surface), side) in paths.iter().zip(surfaces).zip(MeshSide::BOTH) {
                 let bytes = write_side(format(path)?, file, surface, side).map_err(|e| told(path, &e))?;
                 outputs::write(path, &bytes)?;
             }

@@ -4,12 +4,12 @@ use super::fault::{Elements, MeshFault};
 use super::triangulated::Triangle;
 use rustc_hash::FxHashMap;
 
-/// Each undirected edge with its one or two triangle sides, in order of first appearance.
+/// Each undirected edge with its one or two halfedges, in order of first appearance.
 pub(super) struct EdgeTable {
     pub ends: Vec<[u32; 2]>,
-    /// Side 3 t + k of each edge's two triangles; `u32::MAX` where the second is missing.
-    pub sides: Vec<[u32; 2]>,
-    /// Edge of each side.
+    /// Halfedge 3 t + k of each edge's two triangles; `u32::MAX` where the second is missing.
+    pub halfedges: Vec<[u32; 2]>,
+    /// Edge of each halfedge.
     pub edge_of: Vec<u32>,
 }
 
@@ -17,10 +17,13 @@ impl EdgeTable {
     pub fn new(triangles: &[Triangle]) -> Result<Self, MeshFault> {
         let mut numbers: FxHashMap<[u32; 2], u32> = FxHashMap::default();
         numbers.reserve(triangles.len() * 3 / 2);
-        let mut table =
-            Self { ends: Vec::new(), sides: Vec::new(), edge_of: Vec::with_capacity(triangles.len() * 3) };
+        let mut table = Self {
+            ends: Vec::new(),
+            halfedges: Vec::new(),
+            edge_of: Vec::with_capacity(triangles.len() * 3),
+        };
         let mut crowded = Vec::new();
-        for (side, (a, b)) in
+        for (h, (a, b)) in
             triangles.iter().flat_map(|t| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]).enumerate()
         {
             let ends = [a.min(b), a.max(b)];
@@ -29,9 +32,9 @@ impl EdgeTable {
             table.edge_of.push(edge);
             if edge == next {
                 table.ends.push(ends);
-                table.sides.push([side as u32, u32::MAX]);
-            } else if table.sides[edge as usize][1] == u32::MAX {
-                table.sides[edge as usize][1] = side as u32;
+                table.halfedges.push([h as u32, u32::MAX]);
+            } else if table.halfedges[edge as usize][1] == u32::MAX {
+                table.halfedges[edge as usize][1] = h as u32;
             } else {
                 crowded.push(ends.map(|v| v as usize));
             }
@@ -51,7 +54,7 @@ impl EdgeTable {
     }
 
     pub fn check_closed(&self) -> Result<(), MeshFault> {
-        let open = (0..self.count()).filter(|&e| self.sides[e][1] == u32::MAX);
+        let open = (0..self.count()).filter(|&e| self.halfedges[e][1] == u32::MAX);
         let faults: Elements<_> = open.map(|e| self.ends[e].map(|v| v as usize)).collect();
         if faults.count > 0 { Err(MeshFault::OpenEdges(faults)) } else { Ok(()) }
     }
@@ -69,12 +72,12 @@ impl EdgeTable {
             let mut size = 0;
             while let Some(t) = stack.pop() {
                 size += 1;
-                for side in 3 * t..3 * t + 3 {
-                    let edge = self.edge_of[side] as usize;
-                    if self.sides[edge][1] == u32::MAX || is_cut(edge) {
+                for h in 3 * t..3 * t + 3 {
+                    let edge = self.edge_of[h] as usize;
+                    if self.halfedges[edge][1] == u32::MAX || is_cut(edge) {
                         continue;
                     }
-                    let other = self.across(side) / 3;
+                    let other = self.across(h) / 3;
                     if !std::mem::replace(&mut seen[other], true) {
                         stack.push(other);
                     }
@@ -86,10 +89,10 @@ impl EdgeTable {
         faces
     }
 
-    /// The side across.
-    pub fn across(&self, side: usize) -> usize {
-        let [a, b] = self.sides[self.edge_of[side] as usize];
-        if a as usize == side { b as usize } else { a as usize }
+    /// The halfedge across.
+    pub fn across(&self, h: usize) -> usize {
+        let [a, b] = self.halfedges[self.edge_of[h] as usize];
+        if a as usize == h { b as usize } else { a as usize }
     }
 }
 

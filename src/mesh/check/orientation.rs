@@ -7,13 +7,13 @@ use crate::mesh::FaceId;
 use crate::mesh::soup::PolygonSoup;
 use typed_index_collections::TiVec;
 
-/// Turns triangles so that neighbours agree; returns which were turned. Side numbers stay those of the table.
+/// Turns triangles so that neighbours agree; returns which were turned. Halfedge numbers stay those of the table.
 pub(super) fn orient(
     triangles: &mut [Triangle],
     edges: &EdgeTable,
 ) -> Result<TiVec<FaceId, bool>, MeshFault> {
     let original = triangles.to_vec();
-    let start_of = |side: usize| original[side / 3][side % 3];
+    let start_of = |h: usize| original[h / 3][h % 3];
     let mut turned: Vec<Option<bool>> = vec![None; triangles.len()];
     let mut stack = Vec::new();
     for root in 0..triangles.len() {
@@ -23,10 +23,10 @@ pub(super) fn orient(
         turned[root] = Some(false);
         stack.push(root);
         while let Some(t) = stack.pop() {
-            for side in 3 * t..3 * t + 3 {
-                let other = edges.across(side);
+            for h in 3 * t..3 * t + 3 {
+                let other = edges.across(h);
                 // Agreeing neighbours run along their edge in opposite directions.
-                let opposed = start_of(side) == start_of(other);
+                let opposed = start_of(h) == start_of(other);
                 let wanted = turned[t].map(|x| x != opposed);
                 match turned[other / 3] {
                     None => {
@@ -34,7 +34,7 @@ pub(super) fn orient(
                         stack.push(other / 3);
                     }
                     found if found != wanted => {
-                        let edge = edges.ends[edges.edge_of[side] as usize].map(|v| v as usize);
+                        let edge = edges.ends[edges.edge_of[h] as usize].map(|v| v as usize);
                         return Err(MeshFault::NotOrientable { edge });
                     }
                     _ => {}

@@ -31,13 +31,13 @@ pub(super) fn check_fans(
     edges: &EdgeTable,
     vertices: usize,
 ) -> Result<(), MeshFault> {
-    // Sides belong to the triangles as they were before turning: a corner is named by its vertex instead.
+    // Halfedges belong to the triangles as they were before turning: a corner is named by its vertex instead.
     let corners = triangles.len() * 3;
     let mut sets = DisjointSets::new(corners);
     let corner = |t: usize, v: u32| 3 * t + triangles[t].iter().position(|&w| w == v).unwrap_or(0);
-    for (ends, sides) in edges.ends.iter().zip(&edges.sides) {
+    for (ends, halfedges) in edges.ends.iter().zip(&edges.halfedges) {
         for &v in ends {
-            let [a, b] = sides.map(|s| corner(s as usize / 3, v));
+            let [a, b] = halfedges.map(|s| corner(s as usize / 3, v));
             sets.join(a, b);
         }
     }

@@ -126,7 +126,7 @@ fn needles_joined(mut draft: Draft) -> Draft {
         let squares = squares(&draft.positions, &face.corners);
         let longest = squares.into_iter().fold(0.0, f64::max);
         for k in (0..3).filter(|&k| squares[k] <= SAME_PLACE * SAME_PLACE * longest) {
-            let [a, b] = face.side(k);
+            let [a, b] = face.edge(k);
             any |= sets.join(a as usize, b as usize);
         }
     }
@@ -161,7 +161,7 @@ fn closed_needles_joined(mut draft: Draft, waits: &mut bool) -> Draft {
     let mut touched: FxHashSet<u32> = FxHashSet::default();
     for (f, face) in draft.faces.iter().enumerate() {
         let Some(k) = short_side(&draft, face) else { continue };
-        let [a, b] = face.side(k);
+        let [a, b] = face.edge(k);
         let Some(g) = neighbour(&draft, &edges, f, k) else { continue };
         let others = [opposite(face, [a, b]), opposite(&draft.faces[g], [a, b])];
         let around = |v: u32| beside[&v].iter().copied().chain([v]);
@@ -245,7 +245,7 @@ impl Cuts {
             }
             let on_edge = (longest + 2) % 3;
             let corner = Corner { vertex: face.corners[on_edge], in_file: face.file_corners[on_edge] };
-            let cut = across(draft, beside, face.side(longest), &corner, &mut known);
+            let cut = across(draft, beside, face.edge(longest), &corner, &mut known);
             if let Some(cut) = cut {
                 touched.extend([f, beside]);
                 found.gone.push(f);
@@ -276,12 +276,12 @@ impl Cuts {
     }
 }
 
-/// The one other face at a side of a face; `None` where there is none or more than one.
+/// The one other face at an edge of a face; `None` where there is none or more than one.
 fn neighbour(draft: &Draft, edges: &[Edge], f: usize, k: usize) -> Option<usize> {
-    let [a, b] = draft.faces[f].side(k);
+    let [a, b] = draft.faces[f].edge(k);
     let ends = [a.min(b), a.max(b)];
     let edge = &edges[edges.binary_search_by_key(&ends, |edge| edge.ends).ok()?];
-    match edge.sides[..] {
+    match edge.halfedges[..] {
         [s, t] => {
             let other = if s as usize / 3 == f { t } else { s };
             Some(other as usize / 3)

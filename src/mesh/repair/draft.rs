@@ -43,8 +43,8 @@ pub(super) enum FaceOrigin {
 }
 
 impl DraftFace {
-    /// The ends of its side k, from corner k on.
-    pub fn side(&self, k: usize) -> [u32; 2] {
+    /// The ends of its edge k, from corner k on.
+    pub fn edge(&self, k: usize) -> [u32; 2] {
         [self.corners[k], self.corners[(k + 1) % 3]]
     }
 
@@ -96,41 +96,41 @@ impl Draft {
     }
 }
 
-/// An edge with the sides of faces that lie along it.
+/// An edge with the halfedges of faces that lie along it.
 #[derive(Clone, Debug)]
 pub(super) struct Edge {
     /// Its vertices, the lesser number first.
     pub ends: [u32; 2],
-    /// Sides 3 f + k of faces, rising.
-    pub sides: Vec<u32>,
+    /// Halfedges 3 f + k of faces, rising.
+    pub halfedges: Vec<u32>,
 }
 
 /// All edges of some faces, in the order of their ends.
 pub(super) fn edges(faces: &[DraftFace]) -> Vec<Edge> {
-    let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(faces.len() * 3);
+    let mut halfedges: Vec<([u32; 2], u32)> = Vec::with_capacity(faces.len() * 3);
     for (f, face) in faces.iter().enumerate() {
         for k in 0..3 {
-            let [a, b] = face.side(k);
-            sides.push(([a.min(b), a.max(b)], (3 * f + k) as u32));
+            let [a, b] = face.edge(k);
+            halfedges.push(([a.min(b), a.max(b)], (3 * f + k) as u32));
         }
     }
-    sides.sort_unstable();
+    halfedges.sort_unstable();
     let same_ends = |a: &([u32; 2], u32), b: &([u32; 2], u32)| a.0 == b.0;
     let edge = |group: &[([u32; 2], u32)]| Edge {
         ends: group[0].0,
-        sides: group.iter().map(|(_, side)| *side).collect(),
+        halfedges: group.iter().map(|(_, h)| *h).collect(),
     };
-    sides.chunk_by(same_ends).map(edge).collect()
+    halfedges.chunk_by(same_ends).map(edge).collect()
 }
 
-/// The number that stands for no side.
+/// The number that stands for no halfedge.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// The side across each side where exactly two faces meet; [`NONE`] at other edges.
+/// The halfedge across each halfedge where exactly two faces meet; [`NONE`] at other edges.
 pub(super) fn across(faces: &[DraftFace], edges: &[Edge]) -> Vec<u32> {
     let mut across = vec![NONE; faces.len() * 3];
     for edge in edges {
-        if let [a, b] = edge.sides[..] {
+        if let [a, b] = edge.halfedges[..] {
             across[a as usize] = b;
             across[b as usize] = a;
         }
@@ -150,9 +150,9 @@ pub(super) fn parts(faces: usize, across: &[u32]) -> Vec<usize> {
         part[start] = count;
         stack.push(start);
         while let Some(f) = stack.pop() {
-            for side in &across[3 * f..3 * f + 3] {
-                let next = *side as usize / 3;
-                if *side != NONE && part[next] == usize::MAX {
+            for h in &across[3 * f..3 * f + 3] {
+                let next = *h as usize / 3;
+                if *h != NONE && part[next] == usize::MAX {
                     part[next] = count;
                     stack.push(next);
                 }

@@ -58,7 +58,7 @@ fn walls(faces: &[DraftFace], groups: &[Vec<usize>]) -> FxHashSet<usize> {
         let mut odd: FxHashMap<usize, u32> = FxHashMap::default();
         let mut has_rest = FxHashSet::default();
         for edge in &edges {
-            let faces = edge.sides.iter().map(|side| *side as usize / 3);
+            let faces = edge.halfedges.iter().map(|h| *h as usize / 3);
             let (inside, rest): (Vec<usize>, Vec<usize>) = faces.partition(|f| wall.contains(f));
             if rest.len() % 2 == 1 {
                 inside.iter().for_each(|&f| *odd.entry(f).or_default() += 1);
@@ -89,7 +89,7 @@ fn attached(
     let mut sets = crate::math::disjoint_sets::DisjointSets::new(order.len());
     for edge in edges {
         let inside: Vec<usize> =
-            edge.sides.iter().filter_map(|side| place.get(&(*side as usize / 3)).copied()).collect();
+            edge.halfedges.iter().filter_map(|h| place.get(&(*h as usize / 3)).copied()).collect();
         for pair in inside.windows(2) {
             sets.join(pair[0], pair[1]);
         }

@@ -9,8 +9,11 @@ use rustc_hash::FxHashMap;
 
 /// The draft with vertices on open edges joined where they are within a distance of each other; 0 for exactly equal places.
 pub(super) fn joined(draft: Draft, within: f64) -> Draft {
-    let mut open: Vec<u32> =
-        edges(&draft.faces).iter().filter(|edge| edge.sides.len() == 1).flat_map(|edge| edge.ends).collect();
+    let mut open: Vec<u32> = edges(&draft.faces)
+        .iter()
+        .filter(|edge| edge.halfedges.len() == 1)
+        .flat_map(|edge| edge.ends)
+        .collect();
     open.sort_unstable();
     open.dedup();
     let mut sets = DisjointSets::new(draft.positions.len());

@@ -8,7 +8,7 @@ use crate::mesh::check::MeshFault;
 pub(super) struct Turns {
     /// Whether each face is to be turned: in each part faces stay as most of them lie, and in one-sided parts none is turned.
     pub turned: Vec<bool>,
-    /// Sides across which one-sided parts cannot agree.
+    /// Halfedges across which one-sided parts cannot agree.
     pub seams: Vec<usize>,
 }
 
@@ -27,19 +27,19 @@ pub(super) fn turns(draft: &Draft) -> Turns {
         let mut next = 0;
         while let Some(&f) = part.get(next) {
             next += 1;
-            for side in 3 * f..3 * f + 3 {
-                let other = across[side];
+            for h in 3 * f..3 * f + 3 {
+                let other = across[h];
                 if other == NONE {
                     continue;
                 }
                 let other = other as usize;
-                let wanted = turned[f].map(|x| x != runs_alike(&draft.faces, side, other));
+                let wanted = turned[f].map(|x| x != runs_alike(&draft.faces, h, other));
                 match turned[other / 3] {
                     None => {
                         turned[other / 3] = wanted;
                         part.push(other / 3);
                     }
-                    found if found != wanted => seams.push(side),
+                    found if found != wanted => seams.push(h),
                     _ => {}
                 }
             }
@@ -60,8 +60,8 @@ pub(super) fn turns(draft: &Draft) -> Turns {
 /// [`MeshFault::NotOrientable`] where a part is one-sided.
 pub(super) fn oriented(draft: Draft) -> Result<Draft, RepairRefusal> {
     let Turns { turned, seams } = turns(&draft);
-    if let Some(&side) = seams.first() {
-        let edge = draft.faces[side / 3].side(side % 3).map(|v| draft.number(v));
+    if let Some(&h) = seams.first() {
+        let edge = draft.faces[h / 3].edge(h % 3).map(|v| draft.number(v));
         return Err(MeshFault::NotOrientable { edge }.into());
     }
     let mut draft = draft;
@@ -71,7 +71,7 @@ pub(super) fn oriented(draft: Draft) -> Result<Draft, RepairRefusal> {
     Ok(draft)
 }
 
-/// Whether two sides of one edge run along it in the same direction.
+/// Whether two halfedges of one edge run along it in the same direction.
 fn runs_alike(faces: &[DraftFace], a: usize, b: usize) -> bool {
     faces[a / 3].corners[a % 3] == faces[b / 3].corners[b % 3]
 }

@@ -1,7 +1,7 @@
 //! Edges with more than two faces and vertices with more than one fan come apart (cutting and stitching, Gueziec, Taubin, Lazarus &
 //! Horn 2001, "Cutting and stitching: converting sets of polygons to manifold surfaces").
 //!
-//! Faces are paired at every edge. The corners that hang together across paired sides are one vertex, the others copies of it.
+//! Faces are paired at every edge. The corners that hang together across paired halfedges are one vertex, the others copies of it.
 
 use super::draft::{Draft, DraftFace, Edge, FaceOrigin, NONE, across, edges};
 use crate::math::disjoint_sets::DisjointSets;
@@ -25,7 +25,7 @@ pub(super) struct Sheets {
 pub(super) fn apart(mut draft: Draft) -> (Draft, Sheets) {
     let edges = edges(&draft.faces);
     let mut across = across(&draft.faces, &edges);
-    let crowded: Vec<&Edge> = edges.iter().filter(|edge| edge.sides.len() > 2).collect();
+    let crowded: Vec<&Edge> = edges.iter().filter(|edge| edge.halfedges.len() > 2).collect();
     for edge in &crowded {
         for [a, b] in stitches(&draft, edge) {
             across[a as usize] = b;
@@ -46,19 +46,19 @@ pub(super) fn apart(mut draft: Draft) -> (Draft, Sheets) {
 }
 
 /// The draft with a vertex of its own in the middle of each edge that has the ends of another one: a sheet that touches itself along
-/// an edge, whose vertices stay one since they hang together around its ends. `across` are the sides that belong together.
+/// an edge, whose vertices stay one since they hang together around its ends. `across` are the halfedges that belong together.
 fn apart_along_edges(mut draft: Draft, across: &[u32]) -> Draft {
     let mut middles: FxHashMap<u32, u32> = FxHashMap::default();
     for edge in edges(&draft.faces) {
-        let is_first = |side: &&u32| across[**side as usize] == NONE || across[**side as usize] > **side;
+        let is_first = |h: &&u32| across[**h as usize] == NONE || across[**h as usize] > **h;
         // One of them stays as it is.
-        for &side in edge.sides.iter().filter(is_first).skip(1) {
+        for &h in edge.halfedges.iter().filter(is_first).skip(1) {
             let middle = draft.positions.len() as u32;
             let [p, q] = edge.ends.map(|v| draft.positions[v as usize]);
             draft.positions.push(0.5 * (p + q));
             draft.numbers.push(None);
-            let both = [side, across[side as usize]];
-            middles.extend(both.into_iter().filter(|side| *side != NONE).map(|side| (side, middle)));
+            let both = [h, across[h as usize]];
+            middles.extend(both.into_iter().filter(|h| *h != NONE).map(|h| (h, middle)));
         }
     }
     if middles.is_empty() {
@@ -85,25 +85,25 @@ fn cut_at(face: DraftFace, middles: [Option<u32>; 3], pieces: &mut Vec<DraftFace
         (half.corners[corner], half.file_corners[corner]) = (middle, NONE);
         half
     };
-    let on = |side: usize| {
+    let on = |edge: usize| {
         let mut on = [None; 3];
-        on[side] = middles[side];
+        on[edge] = middles[edge];
         on
     };
     cut_at(half(after), on(last), pieces);
     cut_at(half(k), on(after), pieces);
 }
 
-/// A side at an edge, seen along the edge.
+/// A halfedge at an edge, seen along the edge.
 struct Blade {
-    side: u32,
+    halfedge: u32,
     /// Direction in which its face leaves the edge, in radians around it.
     angle: f64,
     /// Whether it runs from the edge's first end to the second: its inner side is towards lesser angles then.
     is_forward: bool,
 }
 
-/// The pairs of sides of one crowded edge that are stitched: those with the body's inside between them, where as many run one
+/// The pairs of halfedges of one crowded edge that are stitched: those with the body's inside between them, where as many run one
 /// way as the other; else those that go on flattest.
 fn stitches(draft: &Draft, edge: &Edge) -> Vec<[u32; 2]> {
     let blades = blades(draft, edge);
@@ -111,29 +111,29 @@ fn stitches(draft: &Draft, edge: &Edge) -> Vec<[u32; 2]> {
     if 2 * forward == blades.len() { wedges(&blades) } else { flattest(&blades) }
 }
 
-/// The sides by angle.
+/// The halfedges by angle.
 fn blades(draft: &Draft, edge: &Edge) -> Vec<Blade> {
     let [p, q] = edge.ends.map(|v| draft.positions[v as usize]);
     let axis = (q - p).normalize_or_zero();
-    let leaves = |side: u32| {
-        let face = &draft.faces[side as usize / 3];
-        let away = draft.positions[face.corners[(side as usize + 2) % 3] as usize] - p;
+    let leaves = |h: u32| {
+        let face = &draft.faces[h as usize / 3];
+        let away = draft.positions[face.corners[(h as usize + 2) % 3] as usize] - p;
         away - axis * axis.dot(away)
     };
-    // A crowded edge has sides.
-    let x = leaves(edge.sides[0]).normalize_or_zero();
+    // A crowded edge has halfedges.
+    let x = leaves(edge.halfedges[0]).normalize_or_zero();
     let y = axis.cross(x);
-    let blade = |&side: &u32| {
-        let away = leaves(side);
-        let is_forward = draft.faces[side as usize / 3].side(side as usize % 3)[0] == edge.ends[0];
-        Blade { side, angle: atan2(away.dot(y), away.dot(x)), is_forward }
+    let blade = |&h: &u32| {
+        let away = leaves(h);
+        let is_forward = draft.faces[h as usize / 3].edge(h as usize % 3)[0] == edge.ends[0];
+        Blade { halfedge: h, angle: atan2(away.dot(y), away.dot(x)), is_forward }
     };
-    let mut blades: Vec<Blade> = edge.sides.iter().map(blade).collect();
-    blades.sort_by(|a, b| a.angle.total_cmp(&b.angle).then(a.side.cmp(&b.side)));
+    let mut blades: Vec<Blade> = edge.halfedges.iter().map(blade).collect();
+    blades.sort_by(|a, b| a.angle.total_cmp(&b.angle).then(a.halfedge.cmp(&b.halfedge)));
     blades
 }
 
-/// Each backward side with the forward side that closes its wedge, like brackets on a circle.
+/// Each backward halfedge with the forward halfedge that closes its wedge, like brackets on a circle.
 fn wedges(blades: &[Blade]) -> Vec<[u32; 2]> {
     let (mut open, mut pairs) = (Vec::new(), Vec::new());
     let mut closed = vec![false; blades.len()];
@@ -149,25 +149,25 @@ fn wedges(blades: &[Blade]) -> Vec<[u32; 2]> {
         {
             closed[k] = true;
             closed[partner] = true;
-            pairs.push([blades[partner].side, blade.side]);
+            pairs.push([blades[partner].halfedge, blade.halfedge]);
         }
     }
     pairs
 }
 
-/// Pairs of sides that run in opposite directions, the flattest first.
+/// Pairs of halfedges that run in opposite directions, the flattest first.
 fn flattest(blades: &[Blade]) -> Vec<[u32; 2]> {
     let mut all = Vec::new();
     for (i, a) in blades.iter().enumerate() {
         for b in blades[i + 1..].iter().filter(|b| b.is_forward != a.is_forward) {
-            all.push((((b.angle - a.angle) - PI).abs(), [a.side, b.side]));
+            all.push((((b.angle - a.angle) - PI).abs(), [a.halfedge, b.halfedge]));
         }
     }
     all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let mut taken: Vec<u32> = Vec::new();
     let mut pairs = Vec::new();
     for (_, pair) in all {
-        if pair.iter().all(|side| !taken.contains(side)) {
+        if pair.iter().all(|h| !taken.contains(h)) {
             taken.extend(pair);
             pairs.push(pair);
         }
@@ -178,11 +178,11 @@ fn flattest(blades: &[Blade]) -> Vec<[u32; 2]> {
 /// Corners 3 f + k that hang together around their vertices.
 pub(super) fn fans(across: &[u32]) -> DisjointSets {
     let mut fans = DisjointSets::new(across.len());
-    let end = |side: usize| if side % 3 == 2 { side - 2 } else { side + 1 };
-    for (side, &other) in across.iter().enumerate() {
+    let end = |h: usize| if h % 3 == 2 { h - 2 } else { h + 1 };
+    for (h, &other) in across.iter().enumerate() {
         if other != NONE {
-            fans.join(side, end(other as usize));
-            fans.join(end(side), other as usize);
+            fans.join(h, end(other as usize));
+            fans.join(end(h), other as usize);
         }
     }
     fans

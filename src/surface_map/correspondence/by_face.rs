@@ -1,6 +1,7 @@
 //! The pieces of a map, listed by the face in which they lie.
 
 use super::pieces::Correspondence;
+use crate::landmarks::MeshSide;
 use crate::mesh::FaceId;
 use typed_index_collections::{TiVec, ti_vec};
 
@@ -13,8 +14,8 @@ pub struct PiecesByFace {
 }
 
 impl PiecesByFace {
-    /// Sorts the pieces by their face of the source (`side` 0) or of the target (1), which has `faces` faces.
-    pub fn new(map: &Correspondence, side: usize, faces: usize) -> Self {
+    /// Sorts the pieces by their face of one mesh, which has `faces` faces.
+    pub fn new(map: &Correspondence, side: MeshSide, faces: usize) -> Self {
         let mut begins: TiVec<FaceId, u32> = ti_vec![0; faces + 1];
         for piece in &map.pieces {
             begins[FaceId::from(piece.faces[side].index() + 1)] += 1;

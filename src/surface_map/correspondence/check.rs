@@ -94,9 +94,6 @@ pub enum CorrespondenceFault {
     },
 }
 
-/// Both meshes, in the order of the arrays of this module.
-const SIDES: [MeshSide; 2] = [MeshSide::Source, MeshSide::Target];
-
 /// Checks that the pieces are a map between the meshes. All numbers of vertices, faces and corners in `map` must be in range.
 ///
 /// # Errors
@@ -106,27 +103,27 @@ pub fn check(meshes: [&SurfaceMesh; 2], map: &Correspondence) -> Result<(), Corr
     let mut rings = [Vec::new(), Vec::new()];
     let mut covered: [TiVec<FaceId, f64>; 2] = meshes.map(|mesh| ti_vec![0.0; mesh.face_count()]);
     for (number, piece) in map.pieces.iter().enumerate() {
-        for (k, side) in SIDES.into_iter().enumerate() {
-            map.ring(meshes[k], k, piece, &mut rings[k]);
-            if rings[k].len() != piece.corners.len() {
-                let holds =
-                    |v: &&u32| map.vertices[**v as usize][k].weights_in(meshes[k], piece.faces[k]).is_some();
+        for side in MeshSide::BOTH {
+            let (mesh, face) = (meshes[side], piece.faces[side]);
+            map.ring(mesh, side, piece, &mut rings[side]);
+            if rings[side].len() != piece.corners.len() {
+                let holds = |v: &&u32| map.vertices[**v as usize][side].weights_in(mesh, face).is_some();
                 let vertex =
                     map.corners[piece.corners.clone()].iter().find(|v| !holds(v)).copied().unwrap_or(0);
                 return Err(CorrespondenceFault::Elsewhere { piece: number, vertex, side });
             }
-            let share = share(&rings[k]);
+            let share = share(&rings[side]);
             if share < -ROUNDING {
                 return Err(CorrespondenceFault::Turned { piece: number, side, share });
             }
-            covered[k][piece.faces[k]] += share;
+            covered[side][face] += share;
         }
         if !carries(&piece.map, &rings) {
             return Err(CorrespondenceFault::Matrix { piece: number });
         }
     }
-    for (k, side) in SIDES.into_iter().enumerate() {
-        let gap = covered[k].iter_enumerated().find(|(_, share)| (**share - 1.0).abs() > COVERAGE);
+    for side in MeshSide::BOTH {
+        let gap = covered[side].iter_enumerated().find(|(_, share)| (**share - 1.0).abs() > COVERAGE);
         if let Some((face, &share)) = gap {
             return Err(CorrespondenceFault::Coverage { face: face.index(), side, share });
         }

@@ -6,6 +6,7 @@
 
 use super::by_face::PiecesByFace;
 use super::pieces::{Correspondence, MappedPiece, share};
+use crate::landmarks::MeshSide;
 use crate::math::predicates::orient2d;
 use crate::mesh::{SurfaceMesh, SurfacePoint};
 use glam::DVec2;
@@ -21,7 +22,7 @@ pub struct PointLocator<'a> {
 impl<'a> PointLocator<'a> {
     /// The map between source and target; it must have passed [`super::check`] with them.
     pub fn new(meshes: [&'a SurfaceMesh; 2], map: &'a Correspondence) -> Self {
-        let pieces = [0, 1].map(|side| PiecesByFace::new(map, side, meshes[side].face_count()));
+        let pieces = MeshSide::BOTH.map(|side| PiecesByFace::new(map, side, meshes[side].face_count()));
         Self { meshes, map, pieces }
     }
 
@@ -30,7 +31,7 @@ impl<'a> PointLocator<'a> {
     /// # Panics
     /// When the face does not exist.
     pub fn image(&self, point: SurfacePoint) -> SurfacePoint {
-        self.carried(0, point)
+        self.carried(MeshSide::Source, point)
     }
 
     /// The source point that belongs to a target point.
@@ -38,14 +39,14 @@ impl<'a> PointLocator<'a> {
     /// # Panics
     /// When the face does not exist.
     pub fn preimage(&self, point: SurfacePoint) -> SurfacePoint {
-        self.carried(1, point)
+        self.carried(MeshSide::Target, point)
     }
 
-    /// The number of the piece that holds a point of the source (0) or of the target (1).
+    /// The number of the piece that holds a point of one mesh.
     ///
     /// # Panics
     /// When the face does not exist.
-    pub fn piece(&self, side: usize, point: SurfacePoint) -> usize {
+    pub fn piece(&self, side: MeshSide, point: SurfacePoint) -> usize {
         let q = DVec2::new(point.barycentric[1], point.barycentric[2]);
         let here = self.pieces[side].of(point.face);
         let mut nearest = (f64::INFINITY, here[0]);
@@ -63,23 +64,27 @@ impl<'a> PointLocator<'a> {
         nearest.1 as usize
     }
 
-    fn carried(&self, side: usize, point: SurfacePoint) -> SurfacePoint {
+    /// The point of the other mesh that belongs to a point of one.
+    ///
+    /// # Panics
+    /// When the face does not exist.
+    pub fn carried(&self, side: MeshSide, point: SurfacePoint) -> SurfacePoint {
         let q = DVec2::new(point.barycentric[1], point.barycentric[2]);
         let piece = &self.map.pieces[self.piece(side, point)];
-        let matrix = if side == 0 { piece.map } else { piece.map.inverse() };
+        let matrix = piece.map_from(side);
         let [here, there] = self.nearest_corner(side, piece, q);
         let image = there + matrix * (q - here);
-        SurfacePoint::clamped(piece.faces[1 - side], [1.0 - image.x - image.y, image.x, image.y])
+        SurfacePoint::clamped(piece.faces[side.other()], [1.0 - image.x - image.y, image.x, image.y])
     }
 
     /// The piece's corner nearest to q on one mesh, and the same corner on the other mesh. Extending the affine map from it rounds least,
     /// and a corner is mapped exactly onto its image.
-    fn nearest_corner(&self, side: usize, piece: &MappedPiece, q: DVec2) -> [DVec2; 2] {
+    fn nearest_corner(&self, side: MeshSide, piece: &MappedPiece, q: DVec2) -> [DVec2; 2] {
         let mut rings = [Vec::new(), Vec::new()];
-        for k in [0, 1] {
-            self.map.ring(self.meshes[k], k, piece, &mut rings[k]);
+        for side in MeshSide::BOTH {
+            self.map.ring(self.meshes[side], side, piece, &mut rings[side]);
         }
-        let [here, there] = [&rings[side], &rings[1 - side]];
+        let [here, there] = [&rings[side], &rings[side.other()]];
         let nearest = (0..here.len().min(there.len()))
             .min_by(|&i, &j| here[i].distance_squared(q).total_cmp(&here[j].distance_squared(q)));
         nearest.map_or([DVec2::ZERO; 2], |k| [here[k], there[k]])

@@ -1,6 +1,7 @@
 //! Distortion of a map given by its pieces.
 
 use super::pieces::{Correspondence, MappedPiece, share};
+use crate::landmarks::MeshSide;
 use crate::math::scalar::max;
 use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint};
@@ -22,9 +23,9 @@ pub fn distortion(meshes: [&SurfaceMesh; 2], map: &Correspondence, caps: CapFace
     });
     let mut ring = Vec::new();
     let mut local = |piece: &MappedPiece| {
-        let [from, onto] = [0, 1].map(|side| frames[side][piece.faces[side]]);
+        let [from, onto] = MeshSide::BOTH.map(|side| frames[side][piece.faces[side]]);
         let j = onto * piece.map * from.inverse();
-        map.ring(meshes[0], 0, piece, &mut ring);
+        map.ring(meshes[0], MeshSide::Source, piece, &mut ring);
         let source_area = max(share(&ring), 0.0) * 0.5 * from.determinant();
         (j, [source_area, source_area * j.determinant()])
     };
@@ -39,14 +40,14 @@ pub fn distortion(meshes: [&SurfaceMesh; 2], map: &Correspondence, caps: CapFace
             _ => tally.leave_out(&j),
         }
     }
-    let middles = |k: usize| [0, 1].map(|side| middle(meshes[side], map, side, &map.pieces[k]));
+    let middles = |k: usize| MeshSide::BOTH.map(|side| middle(meshes[side], map, side, &map.pieces[k]));
     let worst = tally.worst(|k| map.pieces[k].is_certain, middles);
     let Ok(distortion) = tally.finish(meshes[0], worst, || Ok::<_, Infallible>(()));
     distortion
 }
 
 /// The mean of a piece's corners on one of both meshes.
-fn middle(mesh: &SurfaceMesh, map: &Correspondence, side: usize, piece: &MappedPiece) -> SurfacePoint {
+fn middle(mesh: &SurfaceMesh, map: &Correspondence, side: MeshSide, piece: &MappedPiece) -> SurfacePoint {
     let face = piece.faces[side];
     let corners = &map.corners[piece.corners.clone()];
     let weights = corners.iter().filter_map(|&v| map.vertices[v as usize][side].weights_in(mesh, face));

@@ -1,5 +1,6 @@
 //! The pieces of a map between two meshes.
 
+use crate::landmarks::MeshSide;
 use crate::math::matrix2::invertible;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{Carrier, FaceId, Place, SurfaceMesh, SurfacePoint, VertexId};
@@ -34,6 +35,16 @@ pub struct MappedPiece {
     pub map: DMat2,
     /// Whether the piece is larger than rounding; one that is not may be an artefact of rounding, and maxima leave it out.
     pub is_certain: bool,
+}
+
+impl MappedPiece {
+    /// The linear part of the map from one mesh to the other: `map`, or its inverse.
+    pub fn map_from(&self, side: MeshSide) -> DMat2 {
+        match side {
+            MeshSide::Source => self.map,
+            MeshSide::Target => self.map.inverse(),
+        }
+    }
 }
 
 /// The matrix of a piece that is thinner than this, in barycentric coordinates of its faces, is not taken from its corners: rounding of
@@ -98,7 +109,7 @@ impl Correspondence {
     pub fn carried(&self, carriers: [Carrier<'_>; 2], monitor: &mut dyn Monitor) -> Result<Self, Cancelled> {
         let carry = |places: &[Place; 2]| [carriers[0].place(places[0]), carriers[1].place(places[1])];
         let piece = |piece: &MappedPiece| {
-            let [from, onto] = [0, 1].map(|side| (carriers[side].frame)(piece.faces[side]));
+            let [from, onto] = MeshSide::BOTH.map(|side| (carriers[side].frame)(piece.faces[side]));
             MappedPiece {
                 faces: [from.face, onto.face],
                 map: invertible(onto.matrix() * piece.map * from.matrix().inverse()),
@@ -119,26 +130,27 @@ impl Correspondence {
         Ok(Self { vertices, pieces, corners: self.corners.clone() })
     }
 
-    /// Fills `ring` with barycentric coordinates 1 and 2 of the corners of a piece, in its face of the source (`side` 0) or the target (1).
+    /// Fills `ring` with barycentric coordinates 1 and 2 of the corners of a piece, in its face of one mesh.
     ///
     /// Corners that do not lie in the face, which [`super::check`] refuses, are left out.
-    pub fn ring(&self, mesh: &SurfaceMesh, side: usize, piece: &MappedPiece, ring: &mut Vec<DVec2>) {
+    pub fn ring(&self, mesh: &SurfaceMesh, side: MeshSide, piece: &MappedPiece, ring: &mut Vec<DVec2>) {
         ring.clear();
         let weights = |&v: &u32| self.vertices[v as usize][side].weights_in(mesh, piece.faces[side]);
         let places = self.corners[piece.corners.clone()].iter().filter_map(weights);
         ring.extend(places.map(|[_, x, y]| DVec2::new(x, y)));
     }
 
-    /// The image of each source vertex (`from` 0), or the preimage of each target vertex (1).
+    /// The image of each source vertex, or the preimage of each target vertex: of the vertices of the mesh `from`.
     pub fn vertex_images(
         &self,
         meshes: [&SurfaceMesh; 2],
-        from: usize,
+        from: MeshSide,
     ) -> TiVec<VertexId, Option<SurfacePoint>> {
+        let onto = from.other();
         let mut images: TiVec<VertexId, _> = meshes[from].vertices().map(|_| None).collect();
         for places in &self.vertices {
             if let Place::Vertex(v) = places[from] {
-                images[v] = Some(places[1 - from].surface_point(meshes[1 - from]));
+                images[v] = Some(places[onto].surface_point(meshes[onto]));
             }
         }
         images

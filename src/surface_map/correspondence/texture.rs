@@ -1,6 +1,7 @@
 //! Texture coordinates of the target, and the pieces as one textured triangulation of both meshes.
 
 use super::pieces::Correspondence;
+use crate::landmarks::MeshSide;
 use crate::math::barycentric::interpolated;
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::{Carrier, FaceId, HalfedgeId, Place, SurfaceMesh, VertexId};
@@ -105,7 +106,7 @@ struct Surfaces<'a> {
 }
 
 impl Surfaces<'_> {
-    fn normal(&self, side: usize, place: Place) -> DVec3 {
+    fn normal(&self, side: MeshSide, place: Place) -> DVec3 {
         let point = place.surface_point(self.meshes[side]);
         let normals = self.meshes[side].triangles()[point.face].map(|v| self.normals[side][v]);
         interpolated(normals, point.barycentric).normalize_or(DVec3::Z)
@@ -125,7 +126,7 @@ pub fn common_mesh(
     let mut mesh = CommonMesh::default();
     let (mut ring, mut places) = (Vec::new(), Vec::new());
     for (number, piece) in map.pieces.iter().enumerate() {
-        map.ring(meshes[1], 1, piece, &mut places);
+        map.ring(meshes[1], MeshSide::Target, piece, &mut places);
         let triangles = inside.as_ref().map(|inside| &inside[piece.faces[1]][..]);
         let patch = texture
             .zip(triangles)
@@ -141,8 +142,8 @@ pub fn common_mesh(
                 let [source, target] = map.vertices[vertex as usize];
                 mesh.source_positions.push(source.position(meshes[0]));
                 mesh.target_positions.push(target.position(meshes[1]));
-                mesh.source_normals.push(surfaces.normal(0, source));
-                mesh.target_normals.push(surfaces.normal(1, target));
+                mesh.source_normals.push(surfaces.normal(MeshSide::Source, source));
+                mesh.target_normals.push(surfaces.normal(MeshSide::Target, target));
                 mesh.uvs.push(uv);
             }
             ring.push(index);

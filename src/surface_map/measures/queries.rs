@@ -3,6 +3,7 @@
 //! A point is looked up among the pieces of its face and mapped by the piece's motion over the cone surface into the piece's face of
 //! the other mesh. Both directions use the same pieces, so that one is the inverse of the other up to rounding.
 
+use crate::landmarks::MeshSide;
 use crate::math::barycentric;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, SurfacePoint};
@@ -71,7 +72,7 @@ impl<'a> PointMap<'a> {
     /// # Panics
     /// When the face does not exist.
     pub fn target_from_source(&self, point: SurfacePoint) -> SurfacePoint {
-        let piece = self.piece(0, point, |corner| &corner.source);
+        let piece = self.piece(MeshSide::Source, point, |corner| &corner.source);
         let image = piece.motion.apply(at(self.embeddings[0], point));
         let corners = self.embeddings[1].triangle(piece.target_face);
         SurfacePoint { face: piece.target_face, barycentric: barycentric::clamped_in(corners, image) }
@@ -82,7 +83,7 @@ impl<'a> PointMap<'a> {
     /// # Panics
     /// When the face does not exist.
     pub fn source_from_target(&self, point: SurfacePoint) -> SurfacePoint {
-        let piece = self.piece(1, point, |corner| &corner.target);
+        let piece = self.piece(MeshSide::Target, point, |corner| &corner.target);
         let image = piece.motion.inverse().apply(at(self.embeddings[1], point));
         let corners = self.embeddings[0].triangle(piece.source_face);
         SurfacePoint { face: piece.source_face, barycentric: barycentric::clamped_in(corners, image) }
@@ -91,7 +92,7 @@ impl<'a> PointMap<'a> {
     /// The piece of the point's face that contains it: the one from whose border it is farthest inside.
     fn piece(
         &self,
-        side: usize,
+        side: MeshSide,
         point: SurfacePoint,
         coordinates: impl Fn(&OverlayPoint) -> &[f64; 3],
     ) -> &'a Piece {

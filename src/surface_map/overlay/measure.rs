@@ -129,10 +129,7 @@ impl Measure {
         mesh: &'a SurfaceMesh,
         side: MeshSide,
     ) -> impl Iterator<Item = Segment> + use<'a> {
-        let side = match (side, self.is_exchanged) {
-            (MeshSide::Source, false) | (MeshSide::Target, true) => MeshSide::Source,
-            (MeshSide::Target, false) | (MeshSide::Source, true) => MeshSide::Target,
-        };
+        let side = if self.is_exchanged { side.other() } else { side };
         mesh.edges().flat_map(move |h| self.segments_of(mesh, side, h))
     }
 

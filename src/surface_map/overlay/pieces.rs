@@ -37,10 +37,7 @@ impl Overlay {
         }
         for point in &mut self.points {
             std::mem::swap(&mut point.source, &mut point.target);
-            point.edge_of = match point.edge_of {
-                MeshSide::Source => MeshSide::Target,
-                MeshSide::Target => MeshSide::Source,
-            };
+            point.edge_of = point.edge_of.other();
         }
         std::mem::swap(&mut self.source_area_defect, &mut self.target_area_defect);
     }

@@ -144,11 +144,11 @@ fn measures_are_those_of_the_whole_overlay() {
 fn segments_cover_every_edge_and_are_the_sides_of_the_pieces() {
     let pair = Pair::bent([2, 3], 0.4);
     let (overlay, measure) = (pair.overlay(), measured(pair.sides(), &pair.surface));
-    for (k, side) in [MeshSide::Source, MeshSide::Target].into_iter().enumerate() {
-        let mesh = pair.sides()[k].mesh;
+    for side in MeshSide::BOTH {
+        let mesh = pair.sides()[side].mesh;
         let face = |piece: u32| {
             let piece = &measure.pieces()[piece as usize];
-            [piece.source_face, piece.target_face][k]
+            [piece.source_face, piece.target_face][side]
         };
         let mut rings: Vec<usize> = vec![0; overlay.pieces.len()];
         let mut lengths: BTreeMap<HalfedgeId, f64> = BTreeMap::new();

@@ -150,7 +150,7 @@ impl<'a> Patches<'a> {
         }
         let [p, q, r] = self.surface.charts[patch];
         let centre = (p + q + r) / 3.0;
-        let System { laplacian, sides: [x, y] } = self.system(patch, centre, monitor)?;
+        let System { laplacian, b: [x, y] } = self.system(patch, centre, monitor)?;
         let factor = ApproximateCholesky::watched(&laplacian, monitor)?;
         let x = self.solved(&laplacian, &factor, &x, &mut Portion::new(monitor, 0.0, 0.5))?;
         let y = self.solved(&laplacian, &factor, &y, &mut Portion::new(monitor, 0.5, 1.0))?;
@@ -201,15 +201,15 @@ impl<'a> Patches<'a> {
                 }
             }
         }
-        let mut sides = [vec![0.0; unknowns as usize + 1], vec![0.0; unknowns as usize + 1]];
+        let mut b = [vec![0.0; unknowns as usize + 1], vec![0.0; unknowns as usize + 1]];
         for (i, weight, place) in known {
             edges.push((i, unknowns, weight));
-            for (side, coordinate) in sides.iter_mut().zip(place.to_array()) {
-                side[i as usize] += weight * coordinate;
-                side[unknowns as usize] -= weight * coordinate;
+            for (b, coordinate) in b.iter_mut().zip(place.to_array()) {
+                b[i as usize] += weight * coordinate;
+                b[unknowns as usize] -= weight * coordinate;
             }
         }
-        Ok(System { laplacian: Graph { vertices: unknowns as usize + 1, edges }, sides })
+        Ok(System { laplacian: Graph { vertices: unknowns as usize + 1, edges }, b })
     }
 
     /// Solves a system of a Laplacian as exactly as rounding allows.
@@ -217,12 +217,11 @@ impl<'a> Patches<'a> {
         &mut self,
         laplacian: &Graph,
         factor: &ApproximateCholesky,
-        side: &[f64],
+        b: &[f64],
         monitor: &mut dyn Monitor,
     ) -> Result<Vec<f64>, Cancelled> {
-        let n = side.len();
-        let (mut x, mut step, mut image, mut left) =
-            (vec![0.0; n], vec![0.0; n], vec![0.0; n], side.to_vec());
+        let n = b.len();
+        let (mut x, mut step, mut image, mut left) = (vec![0.0; n], vec![0.0; n], vec![0.0; n], b.to_vec());
         for _ in 0..SOLVES {
             let mut stopped = Ok(());
             let may_go_on = || {
@@ -234,7 +233,7 @@ impl<'a> Patches<'a> {
             stopped?;
             x.iter_mut().zip(&step).for_each(|(x, step)| *x += step);
             laplacian.apply(&x, &mut image);
-            (0..n).for_each(|i| left[i] = side[i] - image[i]);
+            (0..n).for_each(|i| left[i] = b[i] - image[i]);
         }
         Ok(x)
     }
@@ -243,7 +242,7 @@ impl<'a> Patches<'a> {
 /// L x = b for both coordinates. The last vertex stands for all that are known, at the point that places are relative to.
 struct System {
     laplacian: Graph,
-    sides: [Vec<f64>; 2],
+    b: [Vec<f64>; 2],
 }
 
 /// The same parametrisation with every vertex but the landmarks moved by 1e-9 of its shortest edge, and sixfold with each further attempt.

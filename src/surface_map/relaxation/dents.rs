@@ -12,6 +12,7 @@
 use super::clipping::BoxedTriangle;
 use super::covered_star::{CoveredStar, Partner, Sheet, sheets};
 use super::dent_energy::DentEnergy;
+use crate::landmarks::MeshSide;
 use crate::math::scalar::{ln, max};
 use crate::math::triangle::signed_double_area;
 use crate::mesh::face_weights::is_skin_on_both;
@@ -130,8 +131,7 @@ fn dented(sides: [Parametrised<'_>; 2], overlay: &Overlay, brink: f64) -> BTreeS
 /// A vertex of one of both meshes.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct SheetVertex {
-    /// 0 of the source, 1 of the target.
-    side: usize,
+    side: MeshSide,
     vertex: VertexId,
 }
 
@@ -171,10 +171,12 @@ impl Healer<'_> {
                     continue;
                 }
                 dented.insert(s);
-                let on_source = source.side.mesh.triangles()[s].map(|vertex| SheetVertex { side: 0, vertex });
-                let on_target =
-                    target.side.mesh.triangles()[partner.face].map(|vertex| SheetVertex { side: 1, vertex });
-                for v in on_source.into_iter().chain(on_target) {
+                let faces = [s, partner.face];
+                let corners = |side: MeshSide| {
+                    let corners = self.sheets[side].side.mesh.triangles()[faces[side]];
+                    corners.map(|vertex| SheetVertex { side, vertex })
+                };
+                for v in MeshSide::BOTH.map(corners).into_iter().flatten() {
                     if !self.sheets[v.side].is_landmark[v.vertex] && !self.at_rest.contains(&v) {
                         let worst = found.entry(v).or_default();
                         *worst = max(*worst, density);
@@ -208,17 +210,17 @@ impl Healer<'_> {
             self.has_moved = true;
             self.wake(vertex.side, &star);
             match vertex.side {
-                0 => faces.extend(star.rays.iter().map(|ray| ray.halfedge.face())),
-                _ => faces.extend(star.covers.iter().map(|cover| cover.face)),
+                MeshSide::Source => faces.extend(star.rays.iter().map(|ray| ray.halfedge.face())),
+                MeshSide::Target => faces.extend(star.covers.iter().map(|cover| cover.face)),
             }
         }
         Ok(faces)
     }
 
     /// Lets the vertices around one that has moved move again.
-    fn wake(&mut self, side: usize, star: &CoveredStar) {
+    fn wake(&mut self, side: MeshSide, star: &CoveredStar) {
         let own = star.rays.iter().map(|ray| (side, ray.halfedge.face()));
-        for (side, f) in own.chain(star.covers.iter().map(|cover| (1 - side, cover.face))) {
+        for (side, f) in own.chain(star.covers.iter().map(|cover| (side.other(), cover.face))) {
             for vertex in self.sheets[side].side.mesh.triangles()[f] {
                 self.at_rest.remove(&SheetVertex { side, vertex });
             }
@@ -239,7 +241,7 @@ impl Healer<'_> {
         SheetVertex { side, vertex }: SheetVertex,
         looks: Option<usize>,
     ) -> Option<CoveredStar> {
-        let star = CoveredStar::around(&self.sheets[side], &self.sheets[1 - side], vertex);
+        let star = CoveredStar::around(&self.sheets[side], &self.sheets[side.other()], vertex);
         if !star.is_covered {
             return None;
         }
@@ -266,8 +268,8 @@ impl Healer<'_> {
     }
 
     /// Moves the vertex in the middle of a star; `false`, unchanged, where rounding turns a triangle over.
-    fn place(&mut self, k: usize, star: &CoveredStar, z: DVec2) -> bool {
-        let corners = &mut self.sheets[k].corners;
+    fn place(&mut self, side: MeshSide, star: &CoveredStar, z: DVec2) -> bool {
+        let corners = &mut self.sheets[side].corners;
         let before: Vec<DVec2> = star.rays.iter().map(|ray| corners[ray.halfedge]).collect();
         for ray in &star.rays {
             corners[ray.halfedge] = ray.motion.apply(star.origin + z);
@@ -279,29 +281,30 @@ impl Healer<'_> {
             }
             return false;
         }
-        self.pair_anew(k, star, z);
+        self.pair_anew(side, star, z);
         true
     }
 
     /// Finds the faces of the other mesh that overlap each face of the star, after its vertex has moved.
-    fn pair_anew(&mut self, k: usize, star: &CoveredStar, z: DVec2) {
+    fn pair_anew(&mut self, side: MeshSide, star: &CoveredStar, z: DVec2) {
         let own: Vec<FaceId> = star.rays.iter().map(|ray| ray.halfedge.face()).collect();
         for cover in &star.covers {
-            self.sheets[1 - k].partners[cover.face].retain(|partner| !own.contains(&partner.face));
+            self.sheets[side.other()].partners[cover.face].retain(|partner| !own.contains(&partner.face));
         }
         for ray in &star.rays {
             let face = ray.halfedge.face();
-            self.sheets[k].partners[face].clear();
+            self.sheets[side].partners[face].clear();
             let own = BoxedTriangle::new([z, ray.ring[0], ray.ring[1]]);
             for cover in star.covers.iter().filter(|cover| own.overlap(&cover.triangle) > 0.0) {
                 let motion = cover.motion.after(&ray.motion.inverse());
                 let is_same = |other: &Partner| other.face == cover.face && other.motion == motion;
                 // Of one face there may be several parts.
-                if self.sheets[k].partners[face].iter().any(is_same) {
+                if self.sheets[side].partners[face].iter().any(is_same) {
                     continue;
                 }
-                self.sheets[k].partners[face].push(Partner { face: cover.face, motion });
-                self.sheets[1 - k].partners[cover.face].push(Partner { face, motion: motion.inverse() });
+                self.sheets[side].partners[face].push(Partner { face: cover.face, motion });
+                self.sheets[side.other()].partners[cover.face]
+                    .push(Partner { face, motion: motion.inverse() });
             }
         }
     }

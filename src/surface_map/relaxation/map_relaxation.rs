@@ -79,9 +79,11 @@ impl Relaxed<'_> {
     /// The areas, on the source and on the target, of the pieces that are skin on both ([`crate::mesh::face_weights`]); 0 without an
     /// overlay.
     pub fn skin_areas(&self) -> [f64; 2] {
-        let mut areas = self.relaxation.present.skin_areas();
-        areas.rotate_left(self.relaxation.moving);
-        areas
+        let [moving, still] = self.relaxation.present.skin_areas();
+        match self.relaxation.moving {
+            MeshSide::Source => [moving, still],
+            MeshSide::Target => [still, moving],
+        }
     }
 
     /// Median over both surfaces of the distortion ([`MapEnergy::distortion`] with equal areas), by area; not a number without an
@@ -184,19 +186,19 @@ struct Relaxation<'a> {
     /// The Jacobian of each face of each mesh from its plane to its rest plane.
     inverses: [TiVec<FaceId, DMat2>; 2],
     damping: [f64; 2],
-    /// The mesh that moves: 0 for the source, 1 for the target.
-    moving: usize,
+    /// The mesh that moves.
+    moving: MeshSide,
     locator: Locator,
     locations: Locations,
     present: Evaluation,
     trial: Evaluation,
 }
 
-/// Calls `make` for the source (0), then for the target (1), and asks the monitor after each.
-fn of_both<T>(monitor: &mut dyn Monitor, make: impl Fn(usize) -> T) -> Result<[T; 2], Cancelled> {
-    let of_source = make(0);
+/// Calls `make` for the source, then for the target, and asks the monitor after each.
+fn of_both<T>(monitor: &mut dyn Monitor, make: impl Fn(MeshSide) -> T) -> Result<[T; 2], Cancelled> {
+    let of_source = make(MeshSide::Source);
     monitor.step(Step::default())?;
-    let of_target = make(1);
+    let of_target = make(MeshSide::Target);
     monitor.step(Step::default())?;
     Ok([of_source, of_target])
 }
@@ -220,11 +222,11 @@ impl<'a> Relaxation<'a> {
         options: &'a MapRelaxationOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let unknowns = of_both(monitor, |k| Unknowns::new(sides[k]))?;
+        let unknowns = of_both(monitor, |of| Unknowns::new(sides[of]))?;
         let problems = [unknowns[0].problem(monitor)?, unknowns[1].problem(monitor)?];
         let embeddings = sides.map(|side| side.embedding.clone());
-        let inverses = of_both(monitor, |k| {
-            sides[k].mesh.faces().map(|f| rest_jacobian(sides[k], f).inverse()).collect()
+        let inverses = of_both(monitor, |of| {
+            sides[of].mesh.faces().map(|f| rest_jacobian(sides[of], f).inverse()).collect()
         })?;
         Ok(Self {
             sides,
@@ -238,7 +240,7 @@ impl<'a> Relaxation<'a> {
             embeddings,
             inverses,
             damping: [FIRST_DAMPING; 2],
-            moving: 0,
+            moving: MeshSide::Source,
             locator: Locator::default(),
             locations: Locations::default(),
             present: Evaluation::default(),
@@ -263,7 +265,7 @@ impl<'a> Relaxation<'a> {
     /// Evaluates the start with both meshes nudged, by different lengths: edges between landmarks of one mesh stay where they are, and
     /// may pass through vertices of the other.
     fn begin_with_both(&mut self, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
-        let (moving, other) = (self.moving, 1 - self.moving);
+        let (moving, other) = (self.moving, self.moving.other());
         let still = self.embeddings[other].clone();
         for attempt in 1..NUDGES {
             let z = self.unknowns[other].nudged(&still, attempt + 1);
@@ -290,7 +292,7 @@ impl<'a> Relaxation<'a> {
         monitor.step(Step::default())?;
         self.unknowns[moving].place(z, &mut self.trials[moving].corners);
         let from = Parametrised { embedding: &self.trials[moving], ..self.sides[moving] };
-        let onto = Parametrised { embedding: &self.embeddings[1 - moving], ..self.sides[1 - moving] };
+        let onto = Parametrised { embedding: &self.embeddings[moving.other()], ..self.sides[moving.other()] };
         if let Err(error) = self.locator.fill([from, onto], self.surface, &mut self.locations, monitor) {
             error.or_stop()?;
             return Ok(false);
@@ -302,7 +304,7 @@ impl<'a> Relaxation<'a> {
         }
         monitor.step(Step::default())?;
         let counted = self.counted();
-        self.trial.measure(&self.problems[moving], z, &self.inverses[1 - moving], counted);
+        self.trial.measure(&self.problems[moving], z, &self.inverses[moving.other()], counted);
         let (unknowns, constraints) = (&self.unknowns[moving], self.constraints[moving]);
         monitor.step(Step::default())?;
         self.trial.constrain([from, onto], unknowns, constraints, &self.locations);
@@ -312,7 +314,7 @@ impl<'a> Relaxation<'a> {
 
     /// The energy of the map, seen from the moving side.
     fn counted(&self) -> CountedEnergy<'a> {
-        let weights = [self.moving, 1 - self.moving].map(|k| self.sides[k].weights);
+        let weights = [self.moving, self.moving.other()].map(|k| self.sides[k].weights);
         CountedEnergy { energy: self.map_energy, weights }
     }
 
@@ -367,12 +369,12 @@ impl<'a> Relaxation<'a> {
 
     /// Lets the other mesh move, and evaluates the same overlay from there.
     fn exchange_roles(&mut self) {
-        self.moving = 1 - self.moving;
+        self.moving = self.moving.other();
         self.present.overlay.exchange_roles();
         let problem = &self.problems[self.moving];
         let z = self.unknowns[self.moving].points(&self.embeddings[self.moving]);
         let counted = self.counted();
-        self.present.measure(problem, &z, &self.inverses[1 - self.moving], counted);
+        self.present.measure(problem, &z, &self.inverses[self.moving.other()], counted);
         let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
         self.locate_constrained();
         self.present.total = self.present.energy + self.present.constrained + self.options.barrier * flat;
@@ -381,8 +383,8 @@ impl<'a> Relaxation<'a> {
     /// Evaluates the constraints at the present state.
     fn locate_constrained(&mut self) {
         let moving = self.moving;
-        let sides =
-            [moving, 1 - moving].map(|k| Parametrised { embedding: &self.embeddings[k], ..self.sides[k] });
+        let sides = [moving, moving.other()]
+            .map(|k| Parametrised { embedding: &self.embeddings[k], ..self.sides[k] });
         let mut constraints = self.constraints[moving];
         if !constraints.is_empty()
             && self.locator.fill(sides, self.surface, &mut self.locations, &mut Silent).is_err()

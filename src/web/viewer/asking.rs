@@ -1,6 +1,8 @@
 //! What is under the pointer, and where the map takes it.
 
+use super::super::mesh_side;
 use super::canvas::Viewer;
+use crate::landmarks::MeshSide;
 use crate::scene::MapPlace;
 use glam::Vec2;
 use serde_json::json;
@@ -9,90 +11,86 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen]
 impl Viewer {
     /// Marks what is seen at a place of a view with a ring.
-    pub fn mark(&mut self, side: usize, x: f32, y: f32) {
+    pub fn mark(&mut self, side: usize, x: f32, y: f32) -> Result<(), JsValue> {
+        let side = mesh_side(side)?;
         self.clear_probe();
-        if self.shows_another_shape(side) {
-            return;
+        if !self.shows_another_shape(side) {
+            let side = &mut self.sides[side];
+            side.probe = side.pick_place(Vec2::new(x, y), self.now);
         }
-        let now = self.now;
-        let side = self.side_mut(side);
-        side.probe = side.pick_place(Vec2::new(x, y), now);
+        Ok(())
     }
 
     /// The surface point at a place of a view, x and y from -1 to 1, y up: JSON `{"face", "barycentric"}`. `undefined` where there
     /// is none, or a cap, which takes no landmark.
-    pub fn pick(&self, side: usize, x: f32, y: f32) -> Option<String> {
+    pub fn pick(&self, side: usize, x: f32, y: f32) -> Result<Option<String>, JsValue> {
+        let side = mesh_side(side)?;
         if self.shows_another_shape(side) {
-            return None;
+            return Ok(None);
         }
-        let side = self.side(side);
-        let point = side.pick(Vec2::new(x, y), self.now)?;
-        side.mesh.as_ref()?.on_skin(point)
+        let side = &self.sides[side];
+        let point = side.pick(Vec2::new(x, y), self.now);
+        Ok(point.zip(side.mesh.as_ref()).and_then(|(point, mesh)| mesh.on_skin(point)))
     }
 
     /// The number of the pin at a place of a view, among those that the body does not hide; `slack` in pixels of the page.
     #[wasm_bindgen(js_name = pinAt)]
-    pub fn pin_at(&self, side: usize, x: f32, y: f32, slack: f32) -> Option<usize> {
+    pub fn pin_at(&self, side: usize, x: f32, y: f32, slack: f32) -> Result<Option<usize>, JsValue> {
+        let side = mesh_side(side)?;
         if self.shows_another_shape(side) {
-            return None;
+            return Ok(None);
         }
-        self.side(side).pin_at(Vec2::new(x, y), slack, self.now, self.pixel_ratio)
+        Ok(self.sides[side].pin_at(Vec2::new(x, y), slack, self.now, self.pixel_ratio))
     }
 
     /// Where the place of a pin is seen, x and y from -1 to 1, y up.
     #[wasm_bindgen(js_name = pinPlace)]
-    pub fn pin_place(&self, side: usize, pin: usize) -> Option<Vec<f32>> {
-        let side = self.side(side);
-        let seen = side.pose(self.now).project(side.base(pin)?, side.aspect())?;
-        Some(vec![seen.x, seen.y])
+    pub fn pin_place(&self, side: usize, pin: usize) -> Result<Option<Vec<f32>>, JsValue> {
+        let side = &self.sides[mesh_side(side)?];
+        let seen = side.base(pin).and_then(|base| side.pose(self.now).project(base, side.aspect()));
+        Ok(seen.map(|seen| vec![seen.x, seen.y]))
     }
 
     /// The surface point some pixels of the page beside a pin, y up: JSON `{"face", "barycentric"}`. `undefined` where there is
     /// none, or a cap.
-    pub fn beside(&self, side: usize, pin: usize, dx: f32, dy: f32) -> Option<String> {
-        let side = self.side(side);
-        let point = side.beside(pin, Vec2::new(dx, dy), self.now, self.pixel_ratio)?;
-        side.mesh.as_ref()?.on_skin(point)
+    pub fn beside(&self, side: usize, pin: usize, dx: f32, dy: f32) -> Result<Option<String>, JsValue> {
+        let side = &self.sides[mesh_side(side)?];
+        let point = side.beside(pin, Vec2::new(dx, dy), self.now, self.pixel_ratio);
+        Ok(point.zip(side.mesh.as_ref()).and_then(|(point, mesh)| mesh.on_skin(point)))
     }
 
     /// Asks the map at a place of a view, and marks the place and its partner with rings: JSON `{"points", "positions",
     /// "corners", "weights", "places", "patch"}`: the first two by side; the points of the map's triangle there and their weights; by side
     /// the place on the scale of factors, null where none is shown; the patch of the source, as [`Viewer::set_patches`] numbers it, null
     /// where it is not known. `undefined` where there is no map.
-    pub fn probe(&mut self, side: usize, x: f32, y: f32) -> Option<String> {
+    pub fn probe(&mut self, side: usize, x: f32, y: f32) -> Result<Option<String>, JsValue> {
+        let side = mesh_side(side)?;
         self.clear_probe();
-        let side = side.min(1);
-        if self.shows_another_shape(side) {
-            return None;
-        }
-        let view = &self.sides[side];
-        let ray = view.pose(self.now).ray(Vec2::new(x, y), view.aspect());
-        let (from, along) = view.mesh.as_ref()?.ray(ray);
-        let place = self.map.as_mut()?.under_ray(side, from, along)?;
-        self.show_probe(place)
+        let place = self.place_under(side, Vec2::new(x, y));
+        Ok(place.and_then(|place| self.show_probe(place)))
     }
 
     /// Likewise at a landmark point, given as JSON.
     #[wasm_bindgen(js_name = probePoint)]
-    pub fn probe_point(&mut self, side: usize, point: &str) -> Option<String> {
+    pub fn probe_point(&mut self, side: usize, point: &str) -> Result<Option<String>, JsValue> {
+        let side = mesh_side(side)?;
         self.clear_probe();
-        let side = side.min(1);
-        let mesh = self.sides[side].mesh.as_ref()?;
-        let point = mesh.surface_point(serde_json::from_str(point).ok()?)?;
-        let place = self.map.as_mut()?.nearest(side, point.position(&mesh.checked.mesh))?;
-        self.show_probe(place)
+        let place = self.place_of(side, point);
+        Ok(place.and_then(|place| self.show_probe(place)))
     }
 
     /// The image of a landmark point of one side on the other one, both as JSON. `undefined` where there is no map, or the image
     /// lies in a cap, which takes no landmark.
     #[wasm_bindgen(js_name = imageOf)]
-    pub fn image_of(&mut self, side: usize, point: &str) -> Option<String> {
-        let side = side.min(1);
-        let [mesh, other] = [side, 1 - side].map(|k| self.sides[k].mesh.as_ref());
-        let (mesh, other) = (mesh?, other?);
-        let point = mesh.surface_point(serde_json::from_str(point).ok()?)?;
-        let place = self.map.as_mut()?.nearest(side, point.position(&mesh.checked.mesh))?;
-        other.on_skin(other.picker.as_ref()?.nearest(&other.checked.mesh, place.positions[1 - side])?)
+    pub fn image_of(&mut self, side: usize, point: &str) -> Result<Option<String>, JsValue> {
+        let side = mesh_side(side)?;
+        let place = self.place_of(side, point);
+        let image = |place: MapPlace| {
+            let other = self.sides[side.other()].mesh.as_ref()?;
+            let position = place.positions[side.other()];
+            other.on_skin(other.picker.as_ref()?.nearest(&other.checked.mesh, position)?)
+        };
+        Ok(place.and_then(image))
     }
 
     /// Takes the rings away; whether there were any.
@@ -105,6 +103,23 @@ impl Viewer {
 }
 
 impl Viewer {
+    /// The place of the map at a place of a view.
+    fn place_under(&mut self, view: MeshSide, at: Vec2) -> Option<MapPlace> {
+        if self.shows_another_shape(view) {
+            return None;
+        }
+        let side = &self.sides[view];
+        let (from, along) = side.mesh.as_ref()?.ray(side.pose(self.now).ray(at, side.aspect()));
+        self.map.as_mut()?.under_ray(view, from, along)
+    }
+
+    /// The place of the map at a landmark point, given as JSON.
+    fn place_of(&mut self, side: MeshSide, point: &str) -> Option<MapPlace> {
+        let mesh = self.sides[side].mesh.as_ref()?;
+        let point = mesh.surface_point(serde_json::from_str(point).ok()?)?;
+        self.map.as_mut()?.nearest(side, point.position(&mesh.checked.mesh))
+    }
+
     fn show_probe(&mut self, place: MapPlace) -> Option<String> {
         self.probed = Some((place.corners, place.weights));
         let (mut points, mut places) = (Vec::new(), Vec::new());

@@ -1,7 +1,7 @@
 //! The cameras of both views.
 
-use super::super::failure;
 use super::super::view_side::Look;
+use super::super::{failure, mesh_side};
 use super::canvas::Viewer;
 use super::reading::{named, parsed};
 use crate::io::landmark_file::LandmarkPoint;
@@ -14,52 +14,58 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen]
 impl Viewer {
     /// Makes a view's camera glide from now on, for this time, to where it is put; without a duration it jumps.
-    pub fn glide(&mut self, side: usize, now: f64, duration: f64) {
+    pub fn glide(&mut self, side: usize, now: f64, duration: f64) -> Result<(), JsValue> {
+        let side = &mut self.sides[mesh_side(side)?];
         self.now = now;
-        let side = self.side_mut(side);
         side.glide = Some(Glide { from: side.pose(now), begin: now, duration });
+        Ok(())
     }
 
     /// A gesture begins that turns a view.
-    pub fn grab(&mut self, side: usize) {
-        let now = self.now;
-        self.side_mut(side).grab(now);
+    pub fn grab(&mut self, side: usize) -> Result<(), JsValue> {
+        self.sides[mesh_side(side)?].grab(self.now);
+        Ok(())
     }
 
     /// Turns a view by a drag in units of its height, y up.
-    pub fn orbit(&mut self, side: usize, dx: f32, dy: f32) {
-        self.side_mut(side).moved().orbit(Vec2::new(dx, dy));
+    pub fn orbit(&mut self, side: usize, dx: f32, dy: f32) -> Result<(), JsValue> {
+        self.sides[mesh_side(side)?].moved().orbit(Vec2::new(dx, dy));
+        Ok(())
     }
 
     /// Moves a view by a drag in units of its height, y up.
-    pub fn pan(&mut self, side: usize, dx: f32, dy: f32) {
-        let side = self.side_mut(side);
+    pub fn pan(&mut self, side: usize, dx: f32, dy: f32) -> Result<(), JsValue> {
+        let side = &mut self.sides[mesh_side(side)?];
         let aspect = side.aspect();
         side.moved().pan(Vec2::new(dx, dy), aspect);
+        Ok(())
     }
 
     /// Turns the picture counter-clockwise about the middle of the view, in radians.
-    pub fn roll(&mut self, side: usize, angle: f32) {
-        let camera = self.side_mut(side).moved();
+    pub fn roll(&mut self, side: usize, angle: f32) -> Result<(), JsValue> {
+        let camera = self.sides[mesh_side(side)?].moved();
         camera.roll_about(camera.target, angle);
+        Ok(())
     }
 
     /// Multiplies the distance to what is seen at a place of a view, x and y from -1 to 1, y up; the place stays.
     #[wasm_bindgen(js_name = zoomAt)]
-    pub fn zoom_at(&mut self, side: usize, factor: f32, x: f32, y: f32) {
-        let now = self.now;
-        self.side_mut(side).zoom_at(Vec2::new(x, y), factor, now);
+    pub fn zoom_at(&mut self, side: usize, factor: f32, x: f32, y: f32) -> Result<(), JsValue> {
+        self.sides[mesh_side(side)?].zoom_at(Vec2::new(x, y), factor, self.now);
+        Ok(())
     }
 
     /// Brings the whole mesh into the view; the direction stays.
-    pub fn fit(&mut self, side: usize) {
-        self.side_mut(side).fit();
+    pub fn fit(&mut self, side: usize) -> Result<(), JsValue> {
+        self.sides[mesh_side(side)?].fit();
+        Ok(())
     }
 
     /// Puts the camera back to the first look.
     #[wasm_bindgen(js_name = resetCamera)]
-    pub fn reset_camera(&mut self, side: usize) {
-        self.side_mut(side).first_look();
+    pub fn reset_camera(&mut self, side: usize) -> Result<(), JsValue> {
+        self.sides[mesh_side(side)?].first_look();
+        Ok(())
     }
 
     /// Looks at the whole mesh from a side: `front`, `back`, `right`, `left`, `top` or `bottom`.
@@ -69,7 +75,7 @@ impl Viewer {
     #[wasm_bindgen(js_name = lookFrom)]
     pub fn look_from(&mut self, side: usize, from: &str) -> Result<(), JsValue> {
         let from: LookFrom = named("camera", from)?;
-        let side = self.side_mut(side);
+        let side = &mut self.sides[mesh_side(side)?];
         side.camera.look_from(from);
         side.fit();
         // The view stays as it was asked for when the mesh is turned upright or the window changes.
@@ -84,28 +90,30 @@ impl Viewer {
     #[wasm_bindgen(js_name = setUp)]
     pub fn set_up(&mut self, side: usize, axis: &str) -> Result<(), JsValue> {
         let axis: UpAxis = named("camera", axis)?;
-        self.side_mut(side).set_up(axis);
+        self.sides[mesh_side(side)?].set_up(axis);
         Ok(())
     }
 
     /// The axis that seems to point up by the mesh's shape; `undefined` where it does not tell.
     #[wasm_bindgen(js_name = proposedUp)]
-    pub fn proposed_up(&self, side: usize) -> Option<String> {
-        let axis = proposed_up(&self.side(side).mesh.as_ref()?.checked.mesh)?;
-        serde_json::to_value(axis).ok()?.as_str().map(str::to_owned)
+    pub fn proposed_up(&self, side: usize) -> Result<Option<String>, JsValue> {
+        let mesh = self.sides[mesh_side(side)?].mesh.as_ref();
+        let axis = mesh.and_then(|mesh| proposed_up(&mesh.checked.mesh));
+        let word = axis.and_then(|axis| serde_json::to_value(axis).ok());
+        Ok(word.and_then(|word| word.as_str().map(str::to_owned)))
     }
 
     /// Brings what is seen at a place of a view to its middle, and turns about it from now on; whether there is anything.
     #[wasm_bindgen(js_name = centreAt)]
-    pub fn centre_at(&mut self, side: usize, x: f32, y: f32) -> bool {
+    pub fn centre_at(&mut self, side: usize, x: f32, y: f32) -> Result<bool, JsValue> {
+        let side = mesh_side(side)?;
         if self.shows_another_shape(side) {
-            return false;
+            return Ok(false);
         }
-        let now = self.now;
-        let side = self.side_mut(side);
-        let Some(place) = side.pick_place(Vec2::new(x, y), now) else { return false };
+        let side = &mut self.sides[side];
+        let Some(place) = side.pick_place(Vec2::new(x, y), self.now) else { return Ok(false) };
         side.moved().centre_on(place);
-        true
+        Ok(true)
     }
 
     /// Likewise a landmark point, as JSON.
@@ -115,7 +123,7 @@ impl Viewer {
     #[wasm_bindgen(js_name = centreOn)]
     pub fn centre_on(&mut self, side: usize, point: &str) -> Result<(), JsValue> {
         let point: LandmarkPoint = parsed("landmarks", point)?;
-        let side = self.side_mut(side);
+        let side = &mut self.sides[mesh_side(side)?];
         if let Some(place) = side.place_of(point) {
             side.moved().centre_on(place);
         }
@@ -128,21 +136,21 @@ impl Viewer {
     /// `{"code": "landmarks", "message"}`.
     pub fn face(&mut self, side: usize, point: &str) -> Result<(), JsValue> {
         let point: LandmarkPoint = parsed("landmarks", point)?;
-        self.side_mut(side).face(point);
+        self.sides[mesh_side(side)?].face(point);
         Ok(())
     }
 
     /// Where a camera stands, for [`Viewer::set_camera`]; `undefined` at the first look.
-    pub fn camera(&self, side: usize) -> Option<Vec<f32>> {
-        let side = self.side(side);
-        (!side.is_first_look()).then(|| side.camera.to_numbers().to_vec())
+    pub fn camera(&self, side: usize) -> Result<Option<Vec<f32>>, JsValue> {
+        let side = &self.sides[mesh_side(side)?];
+        Ok((!side.is_first_look()).then(|| side.camera.to_numbers().to_vec()))
     }
 
     /// How a view's camera is turned now: right and up on the screen and back to the viewer, in the mesh's coordinates, three numbers
     /// each.
-    pub fn axes(&self, side: usize) -> Vec<f32> {
-        let pose = self.side(side).pose(self.now);
-        [pose.right(), pose.up(), pose.back()].map(|axis| axis.to_array()).concat()
+    pub fn axes(&self, side: usize) -> Result<Vec<f32>, JsValue> {
+        let pose = self.sides[mesh_side(side)?].pose(self.now);
+        Ok([pose.right(), pose.up(), pose.back()].map(|axis| axis.to_array()).concat())
     }
 
     /// Puts a camera where one stood.
@@ -151,7 +159,7 @@ impl Viewer {
     /// `{"code": "camera", "message"}` where these are no numbers of a camera.
     #[wasm_bindgen(js_name = setCamera)]
     pub fn set_camera(&mut self, side: usize, camera: &[f32]) -> Result<(), JsValue> {
-        let side = self.side_mut(side);
+        let side = &mut self.sides[mesh_side(side)?];
         let camera = Camera::from_numbers(side.camera.up, camera);
         *side.moved() = camera.ok_or_else(|| failure("camera", "these numbers are no camera's"))?;
         Ok(())
@@ -159,22 +167,22 @@ impl Viewer {
 
     /// Brings the image of what is in the middle of a view to the middle of the other one; false where there is no map or no such
     /// place.
-    pub fn follow(&mut self, leader: usize) -> bool {
-        let leader = leader.min(1);
+    pub fn follow(&mut self, leader: usize) -> Result<bool, JsValue> {
+        let leader = mesh_side(leader)?;
         if self.shows_another_shape(leader) {
-            return false;
+            return Ok(false);
         }
         let view = &self.sides[leader];
-        let Some(mesh) = &view.mesh else { return false };
+        let Some(mesh) = &view.mesh else { return Ok(false) };
         let (from, along) = mesh.ray(view.camera.pose().ray(Vec2::ZERO, view.aspect()));
         let Some(place) = self.map.as_mut().and_then(|map| map.under_ray(leader, from, along)) else {
-            return false;
+            return Ok(false);
         };
-        let other = &mut self.sides[1 - leader];
+        let other = &mut self.sides[leader.other()];
         if let Some(mesh) = &other.mesh {
-            let place = mesh.frame.place(place.positions[1 - leader]);
+            let place = mesh.frame.place(place.positions[leader.other()]);
             other.moved().centre_on(place);
         }
-        true
+        Ok(true)
     }
 }

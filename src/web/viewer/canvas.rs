@@ -1,11 +1,12 @@
 //! The canvas with two views: what is shown on each.
 
-use super::super::failure;
 use super::super::loaded_mesh::LoadedMesh;
 use super::super::view_side::{Look, Side, SideMesh};
+use super::super::{failure, mesh_side};
 use super::compared_map::ComparedMap;
 use super::reading::parsed;
 use crate::gpu::{Paint, Picture, Renderer, Scale, Texture, TextureKind};
+use crate::landmarks::MeshSide;
 use crate::scene::MapPicker;
 use crate::scene::looks::Pixels;
 use crate::scene::morph::PackedWay;
@@ -108,7 +109,7 @@ impl SurfaceStyle {
     }
 }
 
-/// A canvas with two views, source (0) and target (1). Times are in milliseconds, as the browser gives them to animations.
+/// A canvas with two views, of the source and of the target. Times are in milliseconds, as the browser gives them to animations.
 #[wasm_bindgen]
 pub struct Viewer {
     pub(super) renderer: Renderer,
@@ -129,8 +130,8 @@ pub struct Viewer {
     pub(super) factor_share: f32,
     /// The user's own picture on the flat metric.
     pub(super) texture: [Option<Picture>; 1],
-    /// The side whose look the map carries.
-    pub(super) look_giver: Option<usize>,
+    /// The mesh whose look the map carries.
+    pub(super) look_giver: Option<MeshSide>,
     pub(super) pixel_ratio: f32,
     /// The time of the last frame.
     pub(super) now: f64,
@@ -171,8 +172,15 @@ impl Viewer {
 
     /// Where a view is, in physical pixels from the top left.
     #[wasm_bindgen(js_name = setViewport)]
-    pub fn set_viewport(&mut self, side: usize, x: f32, y: f32, width: f32, height: f32) {
-        let side = self.side_mut(side);
+    pub fn set_viewport(
+        &mut self,
+        side: usize,
+        x: f32,
+        y: f32,
+        width: f32,
+        height: f32,
+    ) -> Result<(), JsValue> {
+        let side = &mut self.sides[mesh_side(side)?];
         let rectangle = [x, y, width, height];
         if side.rectangle != rectangle {
             side.rectangle = rectangle;
@@ -180,14 +188,16 @@ impl Viewer {
                 side.fit();
             }
         }
+        Ok(())
     }
 
     /// Shows a mesh; its landmarks and result go.
     #[wasm_bindgen(js_name = setMesh)]
-    pub fn set_mesh(&mut self, side: usize, mesh: &LoadedMesh) {
+    pub fn set_mesh(&mut self, side: usize, mesh: &LoadedMesh) -> Result<(), JsValue> {
+        let side = mesh_side(side)?;
         let shown = SideMesh::new(mesh, &self.renderer);
         self.clear_result();
-        let side = self.side_mut(side);
+        let side = &mut self.sides[side];
         side.uncover();
         side.preview = None;
         side.pictures.clear();
@@ -195,6 +205,7 @@ impl Viewer {
         side.clear_marks();
         side.glide = None;
         side.first_look();
+        Ok(())
     }
 
     /// Does a part of what a large mesh needs before it can be pointed at, for some milliseconds; true where more is left.
@@ -205,12 +216,21 @@ impl Viewer {
     /// Lays the picture of this number on a side's look: 8-bit colours with opacity, row by row from the top. One that cannot be drawn is
     /// left out.
     #[wasm_bindgen(js_name = setPicture)]
-    pub fn set_picture(&mut self, side: usize, number: u8, width: u32, height: u32, pixels: Vec<u8>) {
+    pub fn set_picture(
+        &mut self,
+        side: usize,
+        number: u8,
+        width: u32,
+        height: u32,
+        pixels: Vec<u8>,
+    ) -> Result<(), JsValue> {
+        let side = mesh_side(side)?;
         let picture = self.renderer.picture(Pixels { width, height, bytes: pixels });
-        let pictures = &mut self.side_mut(side).pictures;
+        let pictures = &mut self.sides[side].pictures;
         let count = pictures.len().max(usize::from(number) + 1);
         pictures.resize_with(count, || None);
         pictures[usize::from(number)] = picture;
+        Ok(())
     }
 
     /// Takes the picture that the style `picture` lays on the flat metric, as [`Viewer::set_picture`] does.
@@ -221,15 +241,17 @@ impl Viewer {
 
     /// Empties a view.
     #[wasm_bindgen(js_name = clearMesh)]
-    pub fn clear_mesh(&mut self, side: usize) {
+    pub fn clear_mesh(&mut self, side: usize) -> Result<(), JsValue> {
+        let side = mesh_side(side)?;
         self.clear_result();
-        let side = self.side_mut(side);
+        let side = &mut self.sides[side];
         if !side.is_covered() {
             side.defects = None;
         }
         side.preview = None;
         side.mesh = None;
         side.clear_marks();
+        Ok(())
     }
 
     /// Shows landmarks: a JSON array, in pair order, of `{"point", "colour", "stand", "cone"}` or null: `colour` is the number
@@ -240,7 +262,7 @@ impl Viewer {
     /// `{"code": "landmarks", "message"}`.
     #[wasm_bindgen(js_name = setLandmarks)]
     pub fn set_landmarks(&mut self, side: usize, marks: &str) -> Result<(), JsValue> {
-        self.side_mut(side).set_landmarks(marks)
+        self.sides[mesh_side(side)?].set_landmarks(marks)
     }
 
     /// Takes suggested points, a JSON array of landmark points or null; they are not drawn, see [`Viewer::suggestions`].
@@ -249,7 +271,7 @@ impl Viewer {
     /// `{"code": "landmarks", "message"}`.
     #[wasm_bindgen(js_name = setSuggestions)]
     pub fn set_suggestions(&mut self, side: usize, points: &str) -> Result<(), JsValue> {
-        self.side_mut(side).set_suggestions(points)
+        self.sides[mesh_side(side)?].set_suggestions(points)
     }
 
     /// What to show: JSON `{"surface", "patchLines", "textureBoundary"?, "cones", "markers", "dark"?, "holes"?,
@@ -266,38 +288,32 @@ impl Viewer {
 
     /// For each landmark x and y of its head from -1 to 1, y up, and whether the number should be shown (1) or hides behind the
     /// surface (0).
-    pub fn labels(&self, side: usize) -> Vec<f32> {
-        self.shown(side, self.side(side).heads(self.now, self.pixel_ratio))
+    pub fn labels(&self, side: usize) -> Result<Vec<f32>, JsValue> {
+        let side = mesh_side(side)?;
+        Ok(self.shown(side, self.sides[side].heads(self.now, self.pixel_ratio)))
     }
 
     /// Where the suggested points are, as [`Viewer::labels`].
-    pub fn suggestions(&self, side: usize) -> Vec<f32> {
-        self.shown(side, self.side(side).suggested(self.now))
+    pub fn suggestions(&self, side: usize) -> Result<Vec<f32>, JsValue> {
+        let side = mesh_side(side)?;
+        Ok(self.shown(side, self.sides[side].suggested(self.now)))
     }
 }
 
 impl Viewer {
-    pub(super) fn side(&self, side: usize) -> &Side {
-        &self.sides[side.min(1)]
-    }
-
-    pub(super) fn side_mut(&mut self, side: usize) -> &mut Side {
-        &mut self.sides[side.min(1)]
-    }
-
     /// Whether a view shows its mesh on the way to the other shape.
-    pub(super) fn is_morphed(&self, number: usize) -> bool {
-        let side = &self.sides[0];
-        number == 0 && self.morph > 0.0 && side.preview.is_none() && !side.is_covered()
+    pub(super) fn is_morphed(&self, view: MeshSide) -> bool {
+        let source = &self.sides[0];
+        view == MeshSide::Source && self.morph > 0.0 && source.preview.is_none() && !source.is_covered()
     }
 
     /// Whether a view shows another shape than its mesh has: that, a mesh that was refused, or the other mesh.
-    pub(super) fn shows_another_shape(&self, view: usize) -> bool {
-        self.is_morphed(view) || self.side(view).is_covered() || self.side_in(view) != view.min(1)
+    pub(super) fn shows_another_shape(&self, view: MeshSide) -> bool {
+        self.is_morphed(view) || self.sides[view].is_covered() || self.side_in(view) != view
     }
 
     /// Places of marks, x, y and visible for each, of which none is seen while the shape is another one.
-    pub(super) fn shown(&self, side: usize, mut places: Vec<f32>) -> Vec<f32> {
+    pub(super) fn shown(&self, side: MeshSide, mut places: Vec<f32>) -> Vec<f32> {
         if self.shows_another_shape(side) {
             places.chunks_exact_mut(3).for_each(|place| place[2] = 0.0);
         }

@@ -4,6 +4,7 @@ use super::canvas::Viewer;
 use super::compared_map::ComparedMap;
 use super::maps::Overlay;
 use crate::gpu::{Paint, ViewDraw};
+use crate::landmarks::MeshSide;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]
@@ -23,7 +24,7 @@ impl Viewer {
         image_normals: &[f32],
     ) {
         let overlay = Overlay { positions, normals, uvs, scale_places, triangles, images, image_normals };
-        self.compared = self.overlay_vertices(0, overlay).map(|vertices| ComparedMap {
+        self.compared = self.overlay_vertices(MeshSide::Source, overlay).map(|vertices| ComparedMap {
             overlay: self.renderer.surface_mesh(&vertices, triangles),
             lines: None,
         });
@@ -32,7 +33,7 @@ impl Viewer {
     /// Takes that map's patch lines on the source, as [`Viewer::set_lines`] does.
     #[wasm_bindgen(js_name = setComparedLines)]
     pub fn set_compared_lines(&mut self, points: &[f32], starts: &[u32]) {
-        let lines = self.line_mesh(0, points, starts);
+        let lines = self.line_mesh(MeshSide::Source, points, starts);
         if let Some(compared) = &mut self.compared {
             compared.lines = lines;
         }
@@ -51,9 +52,9 @@ impl Viewer {
         self.compared.as_ref().filter(|_| self.sides.iter().all(|side| !side.is_covered()))
     }
 
-    /// The side that a view shows.
-    pub(super) fn side_in(&self, view: usize) -> usize {
-        if self.compared().is_some() { 0 } else { view.min(1) }
+    /// The mesh that a view shows.
+    pub(super) fn side_in(&self, view: MeshSide) -> MeshSide {
+        if self.compared().is_some() { MeshSide::Source } else { view }
     }
 
     /// The second view while it shows another map.

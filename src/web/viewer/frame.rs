@@ -3,6 +3,7 @@
 use super::super::view_side::{CoarseStage, Factors, Landmark, Side};
 use super::canvas::{SurfaceStyle, Viewer};
 use crate::gpu::{Clear, Mesh, Paint, Palette, ViewDraw};
+use crate::landmarks::MeshSide;
 use crate::scene::pins::Stand;
 use crate::scene::{MarkerInstance, PinInstance, Pose};
 use glam::Vec3;
@@ -19,9 +20,10 @@ impl Viewer {
         for side in &mut self.sides {
             side.glide = side.glide.filter(|glide| !glide.is_over(now));
         }
-        let balls = [0, 1].map(|k: usize| self.balls(k));
-        let pins = [0, 1].map(|k: usize| self.pins(k));
-        let views = [0, 1].map(|k: usize| self.view(k, Marks { balls: &balls[k], pins: &pins[k] }));
+        let balls = MeshSide::BOTH.map(|view| self.balls(view));
+        let pins = MeshSide::BOTH.map(|view| self.pins(view));
+        let views =
+            MeshSide::BOTH.map(|view| self.view(view, Marks { balls: &balls[view], pins: &pins[view] }));
         // Linear RGB, chosen by eye.
         let background = if self.style.dark { [0.011, 0.013, 0.018] } else { [0.84, 0.86, 0.88] };
         self.renderer.draw(Clear(background), &views);
@@ -38,46 +40,46 @@ struct Marks<'a> {
 
 impl Viewer {
     /// What is drawn of a view.
-    fn view<'a>(&'a self, k: usize, marks: Marks<'a>) -> ViewDraw<'a> {
-        // What is seen, and in which of the views.
-        let (view, k) = (k, self.side_in(k));
-        let (side, style): (&Side, _) = (&self.sides[k], &self.style);
-        let bare = || self.bare(view, k, marks);
+    fn view<'a>(&'a self, view: MeshSide, marks: Marks<'a>) -> ViewDraw<'a> {
+        let shown = self.side_in(view);
+        let (side, style): (&Side, _) = (&self.sides[shown], &self.style);
+        let bare = || self.bare(view, shown, marks);
         if let Some(refused) = side.refused() {
             return ViewDraw { paint: Paint::Refused, surface: Some(refused), ..bare() };
         }
-        if let Some(other) = self.compared().filter(|_| view == 1) {
+        if let Some(other) = self.compared().filter(|_| view == MeshSide::Target) {
             return self.compared_view(other, bare());
         }
         let own = side.mesh.as_ref().map(|m| &m.surface);
         if let Some(preview) = &self.sides[0].preview {
-            let surface = if k == 0 { Some(&preview.mesh) } else { own };
+            let surface = if shown == MeshSide::Source { Some(&preview.mesh) } else { own };
             return ViewDraw { paint: Paint::Pattern, surface, ..bare() };
         }
-        if let Some(stage) = side.stage.as_ref().filter(|_| !self.is_morphed(k)) {
+        if let Some(stage) = side.stage.as_ref().filter(|_| !self.is_morphed(shown)) {
             return self.stage_view(stage, bare());
         }
         if let Some(factors) = &side.factors
-            && !self.is_morphed(k)
+            && !self.is_morphed(shown)
         {
             let lines = side.lines.as_ref().filter(|_| style.patch_lines);
             return ViewDraw { lines, ..self.factors_view(factors, bare()) };
         }
         if style.surface == SurfaceStyle::Look
-            && let Some(shown) = self.in_look(k, bare())
+            && let Some(in_look) = self.in_look(shown, bare())
         {
-            return shown;
+            return in_look;
         }
         // Without a look to show, surfaces are plain.
         let paint = style.paint();
         let paint = if paint == Paint::Look { Paint::Plain } else { paint };
-        let morph = if k == 0 && side.overlay.is_some() { self.morph } else { 0.0 };
-        let shows_own = morph == 0.0 && (paint == Paint::Plain || (k == 1 && style.surface.is_of_places()));
+        let morph = if shown == MeshSide::Source && side.overlay.is_some() { self.morph } else { 0.0 };
+        let is_own_place = shown == MeshSide::Target && style.surface.is_of_places();
+        let shows_own = morph == 0.0 && (paint == Paint::Plain || is_own_place);
         let overlay = side.overlay.as_ref().filter(|_| !shows_own);
         ViewDraw {
             paint: if overlay.is_some() || shows_own { paint } else { Paint::Plain },
             morph,
-            wipe: style.wipe.filter(|_| k == 0).unwrap_or(0.0),
+            wipe: style.wipe.filter(|_| shown == MeshSide::Source).unwrap_or(0.0),
             pictures: &self.texture,
             surface: overlay.or(own),
             under: own.filter(|_| style.holes && overlay.is_some() && morph == 0.0),
@@ -88,12 +90,13 @@ impl Viewer {
         }
     }
 
-    /// A view of side k with its marks, and without a surface.
-    fn bare<'a>(&'a self, view: usize, k: usize, marks: Marks<'a>) -> ViewDraw<'a> {
-        let side = &self.sides[k];
+    /// A view of the mesh `shown` with its marks, and without a surface.
+    fn bare<'a>(&'a self, view: MeshSide, shown: MeshSide, marks: Marks<'a>) -> ViewDraw<'a> {
+        let side = &self.sides[shown];
         let pose = side.pose(self.now);
-        let defects = side.defects.as_ref().filter(|_| !self.is_morphed(k));
-        let mirror = side.mirror.as_ref().filter(|_| side.defects.is_none() && !self.is_morphed(k));
+        let is_morphed = self.is_morphed(shown);
+        let defects = side.defects.as_ref().filter(|_| !is_morphed);
+        let mirror = side.mirror.as_ref().filter(|_| side.defects.is_none() && !is_morphed);
         ViewDraw {
             rectangle: self.sides[view].rectangle,
             pose,
@@ -140,19 +143,19 @@ impl Viewer {
     }
 
     /// A view in the look of the giving side, which the map carries, or in its own where there is no map; `None` where there is no look.
-    fn in_look<'a>(&'a self, k: usize, bare: ViewDraw<'a>) -> Option<ViewDraw<'a>> {
-        let side = &self.sides[k];
+    fn in_look<'a>(&'a self, shown: MeshSide, bare: ViewDraw<'a>) -> Option<ViewDraw<'a>> {
+        let side = &self.sides[shown];
         let own = side.mesh.as_ref().and_then(|mesh| mesh.dressed.as_ref());
         let giver = self.look_giver.filter(|_| side.carried.is_some());
-        let morph = if k == 0 && giver.is_some() { self.morph } else { 0.0 };
+        let morph = if shown == MeshSide::Source && giver.is_some() { self.morph } else { 0.0 };
         let surface = if giver.is_some() { side.carried.as_ref() } else { own };
         let is_still = morph == 0.0;
         Some(ViewDraw {
             paint: Paint::Look,
             morph,
-            wipe: self.style.wipe.filter(|_| k == 0).unwrap_or(0.0),
+            wipe: self.style.wipe.filter(|_| shown == MeshSide::Source).unwrap_or(0.0),
             surface: Some(surface?),
-            pictures: &self.sides[giver.unwrap_or(k)].pictures,
+            pictures: &self.sides[giver.unwrap_or(shown)].pictures,
             tinted: side.lit.surface.as_ref().filter(|_| is_still),
             traced: self.traced(side).map(|lines| lines.filter(|_| is_still)),
             lines: side.lines.as_ref().filter(|_| self.style.patch_lines && is_still),
@@ -173,8 +176,8 @@ impl Viewer {
     }
 
     /// Where the ring of a view is: on the surface as it is shown.
-    fn ring(&self, side: usize) -> Option<Vec3> {
-        let place = self.side(side).probe?;
+    fn ring(&self, side: MeshSide) -> Option<Vec3> {
+        let place = self.sides[side].probe?;
         if !self.is_morphed(side) {
             return Some(place);
         }
@@ -203,15 +206,15 @@ impl Viewer {
     }
 
     /// The pins of a view, hidden ones below and raised ones on top, then the rings of a place that is asked for.
-    fn pins(&self, view: usize) -> Vec<PinInstance> {
-        let k = self.side_in(view);
-        let side = self.side(k);
+    fn pins(&self, view: MeshSide) -> Vec<PinInstance> {
+        let shown = self.side_in(view);
+        let side = &self.sides[shown];
         let pose = side.pose(self.now);
         // In another shape nothing lies at its usual place.
-        let still = !self.shows_another_shape(k);
+        let still = !self.shows_another_shape(shown);
         let is_shown = |mark: &&Landmark| still && (self.style.markers || mark.pin.stand == Stand::Ghost);
-        let shown = side.landmarks.iter().flatten().filter(is_shown);
-        let mut pins: Vec<(bool, f32, PinInstance)> = shown
+        let marks = side.landmarks.iter().flatten().filter(is_shown);
+        let mut pins: Vec<(bool, f32, PinInstance)> = marks
             .map(|Landmark { pin, .. }| {
                 let hidden = side.is_hidden(pin.base, pose);
                 let nearness = (pin.base - pose.eye()).dot(pose.back());
@@ -224,21 +227,22 @@ impl Viewer {
             let rank = |p: &(bool, f32, PinInstance)| (!p.0, p.2.radius.to_bits());
             rank(a).cmp(&rank(b)).then(a.1.total_cmp(&b.1))
         });
-        let ring = self.ring(k).map(|place| PinInstance {
+        let ring = self.ring(shown).map(|place| PinInstance {
             base: place.to_array(),
             colour: [0.02, 0.02, 0.02],
             radius: 8.0 * self.pixel_ratio,
             stem: 0.0,
             kind: 2.0,
         });
-        let signs = side.defects.iter().filter(|_| !self.is_morphed(k)).flat_map(|defects| &defects.signs);
+        let signs =
+            side.defects.iter().filter(|_| !self.is_morphed(shown)).flat_map(|defects| &defects.signs);
         let sign = |sign: &PinInstance| PinInstance { radius: sign.radius * self.pixel_ratio, ..*sign };
         signs.map(sign).chain(pins.into_iter().map(|(_, _, pin)| pin)).chain(ring).collect()
     }
 
     /// The cones as balls, red for positive and blue for negative curvature.
-    fn balls(&self, view: usize) -> Vec<MarkerInstance> {
-        let k = self.side_in(view);
+    fn balls(&self, view: MeshSide) -> Vec<MarkerInstance> {
+        let shown = self.side_in(view);
         let ball = |Landmark { pin, cone }: &Landmark| {
             let curvature = *cone.as_ref()?;
             // A ball has a radius of 0.012 to 0.03 of the surface's, which grows with the root of the curvature.
@@ -246,7 +250,7 @@ impl Viewer {
             let colour = if curvature >= 0.0 { [0.78, 0.04, 0.03] } else { [0.03, 0.16, 0.80] };
             Some(MarkerInstance { centre: pin.base.to_array(), radius: 0.012 + 0.018 * size, colour })
         };
-        let is_shown = self.style.cones && !self.shows_another_shape(k);
-        self.side(k).landmarks.iter().flatten().filter(|_| is_shown).filter_map(ball).collect()
+        let is_shown = self.style.cones && !self.shows_another_shape(shown);
+        self.sides[shown].landmarks.iter().flatten().filter(|_| is_shown).filter_map(ball).collect()
     }
 }

@@ -1,9 +1,11 @@
 //! What a map brings to the views.
 
+use super::super::mesh_side;
 use super::super::view_side::Side;
 use super::canvas::Viewer;
 use super::reading::{point, strips};
 use crate::gpu::Mesh;
+use crate::landmarks::MeshSide;
 use crate::mesh::FaceId;
 use crate::mesh::dressing::{Giver, carried};
 use crate::scene::buffers::{Triangles, ribbons};
@@ -32,9 +34,13 @@ pub(super) struct Overlay<'a> {
 
 impl Viewer {
     /// The vertices of an overlay on a side; `None` where its arrays do not belong together, or a mesh is missing.
-    pub(super) fn overlay_vertices(&self, side: usize, overlay: Overlay<'_>) -> Option<Vec<SurfaceVertex>> {
+    pub(super) fn overlay_vertices(
+        &self,
+        side: MeshSide,
+        overlay: Overlay<'_>,
+    ) -> Option<Vec<SurfaceVertex>> {
         let Overlay { positions, normals, uvs, scale_places, triangles, images, image_normals } = overlay;
-        let [target, own] = [self.sides[1].mesh.as_ref()?, self.sides[side.min(1)].mesh.as_ref()?];
+        let (target, own) = (self.sides[1].mesh.as_ref()?, self.sides[side].mesh.as_ref()?);
         let count = positions.len() / 3;
         let numbers = [normals.len(), images.len(), image_normals.len()];
         if numbers.iter().any(|n| *n != 3 * count)
@@ -59,13 +65,13 @@ impl Viewer {
     }
 
     /// How far a point of the map lies off its straight way; only the source goes on a way.
-    fn bends_at(&self, side: usize, point: usize) -> PackedBends {
-        self.way.as_ref().filter(|_| side == 0).map(|way| way.at(point)).unwrap_or_default()
+    fn bends_at(&self, side: MeshSide, point: usize) -> PackedBends {
+        self.way.as_ref().filter(|_| side == MeshSide::Source).map(|way| way.at(point)).unwrap_or_default()
     }
 
     /// Patch lines on a side.
-    pub(super) fn line_mesh(&self, side: usize, points: &[f32], starts: &[u32]) -> Option<Mesh> {
-        let mesh = self.sides[side.min(1)].mesh.as_ref()?;
+    pub(super) fn line_mesh(&self, side: MeshSide, points: &[f32], starts: &[u32]) -> Option<Mesh> {
+        let mesh = self.sides[side].mesh.as_ref()?;
         let strips: Vec<Vec<Vec3>> = strips(points, starts)
             .into_iter()
             .map(|strip| strip.into_iter().map(|p| mesh.frame.place(p)).collect())
@@ -91,16 +97,18 @@ impl Viewer {
         triangles: &[u32],
         images: &[f32],
         image_normals: &[f32],
-    ) {
+    ) -> Result<(), JsValue> {
+        let side = mesh_side(side)?;
         let overlay = Overlay { positions, normals, uvs, scale_places, triangles, images, image_normals };
-        let Some(vertices) = self.overlay_vertices(side, overlay) else { return };
+        let Some(vertices) = self.overlay_vertices(side, overlay) else { return Ok(()) };
         let uploaded = self.renderer.surface_mesh(&vertices, triangles);
-        if side == 0 && self.way.is_none() {
+        if side == MeshSide::Source && self.way.is_none() {
             let (images, places): (Vec<Vec3>, Vec<Vec3>) =
                 vertices.iter().map(|v| (Vec3::from_array(v.image), Vec3::from_array(v.position))).unzip();
             self.source_from_target = laid_on(&images, &places);
         }
-        self.side_mut(side).overlay = Some(uploaded);
+        self.sides[side].overlay = Some(uploaded);
+        Ok(())
     }
 
     /// Takes the map's triangles as one side sees them in the look of the giving side: positions and normals there, the places on the
@@ -118,14 +126,15 @@ impl Viewer {
         image_normals: &[f32],
         triangles: &[u32],
         faces: &[u32],
-    ) {
-        let [own, given, target] = [side, giver, 1].map(|side| self.sides[side.min(1)].mesh.as_ref());
-        let (Some(own), Some(given), Some(target)) = (own, given, target) else { return };
-        let Some(look) = given.look.as_deref() else { return };
+    ) -> Result<(), JsValue> {
+        let (side, giver) = (mesh_side(side)?, mesh_side(giver)?);
+        let meshes = [side, giver, MeshSide::Target].map(|side| self.sides[side].mesh.as_ref());
+        let [Some(own), Some(given), Some(target)] = meshes else { return Ok(()) };
+        let Some(look) = given.look.as_deref() else { return Ok(()) };
         let count = positions.len() / 3;
         let numbers = [normals.len(), places.len(), images.len(), image_normals.len()];
         if numbers.iter().any(|n| *n != 3 * count) || triangles.iter().any(|&v| v as usize >= count) {
-            return;
+            return Ok(());
         }
         let hollows = own.hollows_at(positions, triangles);
         let vertex = |k: usize| SurfaceVertex {
@@ -143,25 +152,35 @@ impl Viewer {
         let from = Giver { mesh: &given.checked.mesh, look };
         let dressed = carried(from, &places, triangles.as_chunks().0, &faces);
         let uploaded = self.renderer.dressed_mesh(drawn(&dressed, &bare));
-        self.side_mut(side).carried = Some(uploaded);
-        self.look_giver = Some(giver.min(1));
+        self.sides[side].carried = Some(uploaded);
+        self.look_giver = Some(giver);
+        Ok(())
     }
 
     /// Takes patch lines of one side: their points, and where each line starts among them, and one past the end.
     #[wasm_bindgen(js_name = setLines)]
-    pub fn set_lines(&mut self, side: usize, points: &[f32], starts: &[u32]) {
+    pub fn set_lines(&mut self, side: usize, points: &[f32], starts: &[u32]) -> Result<(), JsValue> {
+        let side = mesh_side(side)?;
         if let Some(uploaded) = self.line_mesh(side, points, starts) {
-            self.side_mut(side).lines = Some(uploaded);
+            self.sides[side].lines = Some(uploaded);
         }
+        Ok(())
     }
 
     /// Takes the seams of the texture as one side sees them, told by the map's triangles: positions there, and texture coordinates.
     #[wasm_bindgen(js_name = setSeams)]
-    pub fn set_seams(&mut self, side: usize, positions: &[f32], uvs: &[f32], triangles: &[u32]) {
-        let Some(mesh) = &self.sides[side.min(1)].mesh else { return };
+    pub fn set_seams(
+        &mut self,
+        side: usize,
+        positions: &[f32],
+        uvs: &[f32],
+        triangles: &[u32],
+    ) -> Result<(), JsValue> {
+        let side = mesh_side(side)?;
+        let Some(mesh) = &self.sides[side].mesh else { return Ok(()) };
         let count = positions.len() / 3;
         if uvs.len() != 2 * count || triangles.iter().any(|&v| v as usize >= count) {
-            return;
+            return Ok(());
         }
         let place = |k: usize| mesh.frame.place(point(three(positions, k)));
         let places: Vec<Vec3> = (0..count).map(place).collect();
@@ -169,7 +188,8 @@ impl Viewer {
         let seams = seams::seams(&places, &uvs, triangles.as_chunks().0);
         let Triangles { vertices, indices } = seams::drawn(&places, &seams);
         let uploaded = (!indices.is_empty()).then(|| self.renderer.marked_line_mesh(&vertices, &indices));
-        self.side_mut(side).seams = uploaded;
+        self.sides[side].seams = uploaded;
+        Ok(())
     }
 
     /// Takes the map to be asked by [`Viewer::probe`]: places of its points on both meshes, and its triangles.

@@ -1,5 +1,6 @@
 //! Left and right: the planes that mirror the meshes, and what lies across from a point.
 
+use super::super::mesh_side;
 use super::super::plane_numbers::PlaneNumbers;
 use super::super::view_side::{ShownMirror, Side};
 use super::canvas::Viewer;
@@ -24,7 +25,7 @@ impl Viewer {
     #[wasm_bindgen(js_name = setMirror)]
     pub fn set_mirror(&mut self, side: usize, plane: &str) -> Result<(), JsValue> {
         let numbers: Option<PlaneNumbers> = parsed("mirror", plane)?;
-        let side = side.min(1);
+        let side = mesh_side(side)?;
         let mesh = self.sides[side].mesh.as_ref();
         let shown = numbers.and_then(|numbers| numbers.plane()).zip(mesh).map(|(plane, mesh)| {
             let Triangles { vertices, indices } = drawn(&mesh.checked.mesh, &mesh.frame, plane);
@@ -38,20 +39,23 @@ impl Viewer {
     /// What lies across the plane from a landmark point of a side, as JSON: `{"point", "distance", "near"}`; `point` is `null` where the
     /// given one lies on the midline, `distance` says how far off the surface the mirror image was, in units of the root of the area, and
     /// `near` is the number of the pin that stands there already or `null`. `undefined` without a plane, and where no landmark can be.
-    pub fn across(&self, side: usize, point: &str) -> Option<String> {
-        let side = self.side(side);
-        let mesh = side.mesh.as_ref()?;
-        let point = mesh.surface_point(serde_json::from_str(point).ok()?)?;
-        let picker = mesh.picker.as_ref()?;
-        let surface = &mesh.checked.mesh;
-        let nearest = |place, normal| picker.nearest_facing(surface, place, normal);
-        match partner(surface, side.mirror.as_ref()?.plane, point, nearest)? {
-            Partner::Itself => Some(json!({ "point": null, "distance": 0.0, "near": null }).to_string()),
-            Partner::Across { point, .. } if mesh.checked.is_cap(point.face) => None,
-            Partner::Across { point, distance } => {
-                let near = pin_at_place(side, point);
-                Some(json!({ "point": mesh.in_file(point), "distance": distance, "near": near }).to_string())
-            }
+    pub fn across(&self, side: usize, point: &str) -> Result<Option<String>, JsValue> {
+        Ok(across(&self.sides[mesh_side(side)?], point))
+    }
+}
+
+fn across(side: &Side, point: &str) -> Option<String> {
+    let mesh = side.mesh.as_ref()?;
+    let point = mesh.surface_point(serde_json::from_str(point).ok()?)?;
+    let picker = mesh.picker.as_ref()?;
+    let surface = &mesh.checked.mesh;
+    let nearest = |place, normal| picker.nearest_facing(surface, place, normal);
+    match partner(surface, side.mirror.as_ref()?.plane, point, nearest)? {
+        Partner::Itself => Some(json!({ "point": null, "distance": 0.0, "near": null }).to_string()),
+        Partner::Across { point, .. } if mesh.checked.is_cap(point.face) => None,
+        Partner::Across { point, distance } => {
+            let near = pin_at_place(side, point);
+            Some(json!({ "point": mesh.in_file(point), "distance": distance, "near": near }).to_string())
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The patches of a map, and those that are lit up on both meshes.
 
+use super::super::mesh_side;
 use super::super::view_side::Lit;
 use super::canvas::Viewer;
 use super::reading::{point, strips};
@@ -21,12 +22,13 @@ impl Viewer {
         starts: &[u32],
         line_points: &[f32],
         line_starts: &[u32],
-    ) {
+    ) -> Result<(), JsValue> {
+        let side = &mut self.sides[mesh_side(side)?];
         let points: Vec<DVec3> = points.chunks_exact(3).map(|p| point([p[0], p[1], p[2]])).collect();
         let triangles = triangles.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
         let starts = starts.iter().map(|&start| start as usize).collect();
-        self.side_mut(side).patches =
-            Patches::new(points, triangles, starts, strips(line_points, line_starts));
+        side.patches = Patches::new(points, triangles, starts, strips(line_points, line_starts));
+        Ok(())
     }
 
     /// Removes the patches, and lights up nothing.

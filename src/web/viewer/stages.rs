@@ -1,5 +1,6 @@
 //! A mesh on its way to its landmarks.
 
+use super::super::mesh_side;
 use super::super::view_side::CoarseStage;
 use super::canvas::Viewer;
 use super::reading::point;
@@ -15,9 +16,9 @@ const MOST_WITH_EDGES: usize = 30_000;
 impl Viewer {
     /// Shows triangles of points in the place of one side's mesh; those with corners that are no points are left out.
     #[wasm_bindgen(js_name = setStage)]
-    pub fn set_stage(&mut self, side: usize, positions: &[f32], triangles: &[u32]) {
-        let side = &mut self.sides[side.min(1)];
-        let Some(mesh) = &side.mesh else { return };
+    pub fn set_stage(&mut self, side: usize, positions: &[f32], triangles: &[u32]) -> Result<(), JsValue> {
+        let side = &mut self.sides[mesh_side(side)?];
+        let Some(mesh) = &side.mesh else { return Ok(()) };
         let points: Vec<Vec3> =
             positions.chunks_exact(3).map(|p| mesh.frame.place(point([p[0], p[1], p[2]]))).collect();
         let is_there = |t: &[u32; 3]| t.iter().all(|&v| (v as usize) < points.len());
@@ -33,18 +34,20 @@ impl Viewer {
             edges,
             trail: None,
         });
+        Ok(())
     }
 
     /// Draws the way of a vertex, from place to place, over the triangles that one side shows; without places there is none.
     #[wasm_bindgen(js_name = setTrail)]
-    pub fn set_trail(&mut self, side: usize, positions: &[f32]) {
-        let side = &mut self.sides[side.min(1)];
-        let (Some(stage), Some(mesh)) = (&mut side.stage, &side.mesh) else { return };
+    pub fn set_trail(&mut self, side: usize, positions: &[f32]) -> Result<(), JsValue> {
+        let side = &mut self.sides[mesh_side(side)?];
+        let (Some(stage), Some(mesh)) = (&mut side.stage, &side.mesh) else { return Ok(()) };
         let points: Vec<Vec3> =
             positions.chunks_exact(3).map(|p| mesh.frame.place(point([p[0], p[1], p[2]]))).collect();
         let steps: Vec<[u32; 2]> = (1..points.len() as u32).map(|k| [k - 1, k]).collect();
         let Triangles { vertices, indices } = seams::drawn(&points, &steps);
         stage.trail = (!indices.is_empty()).then(|| self.renderer.marked_line_mesh(&vertices, &indices));
+        Ok(())
     }
 
     /// Shows both sides as they were before.

@@ -120,10 +120,11 @@ impl Surroundings {
             }
         }
         neighbours.values_mut().for_each(|beside| beside.sort_unstable());
-        let open = edges.iter().filter(|edge| edge.sides.len() == 1).map(|edge| edge.sides[0] as usize);
-        let beyond = open.map(|side| {
-            let face = &draft.faces[side / 3];
-            let [a, b] = face.side(side % 3);
+        let open =
+            edges.iter().filter(|edge| edge.halfedges.len() == 1).map(|edge| edge.halfedges[0] as usize);
+        let beyond = open.map(|h| {
+            let face = &draft.faces[h / 3];
+            let [a, b] = face.edge(h % 3);
             let [p, q, r] = draft.places(face);
             ([b, a], (q - p).cross(r - p).normalize_or_zero())
         });

@@ -14,8 +14,8 @@ pub(super) fn loops(faces: &[DraftFace], edges: &[Edge]) -> Result<Vec<Vec<u32>>
     let mut starts = Vec::new();
     let mut crossed: Vec<usize> = Vec::new();
     for edge in edges {
-        if let [side] = edge.sides[..] {
-            let [a, b] = faces[side as usize / 3].side(side as usize % 3);
+        if let [h] = edge.halfedges[..] {
+            let [a, b] = faces[h as usize / 3].edge(h as usize % 3);
             starts.push(b);
             crossed.extend(next.insert(b, a).map(|_| b as usize));
         }

@@ -4,7 +4,7 @@ use crate::math::triangle;
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 
-/// A disc of triangles whose first vertices are its rim. Side 3 t + k runs from corner k of triangle t to the next.
+/// A disc of triangles whose first vertices are its rim. Halfedge 3 t + k runs from corner k of triangle t to the next.
 pub(super) struct Patch {
     /// Places of the vertices.
     pub points: Vec<DVec3>,
@@ -12,13 +12,13 @@ pub(super) struct Patch {
     pub rim: usize,
     /// Corners of the triangles.
     pub triangles: Vec<[u32; 3]>,
-    /// The side across each side; [`RIM`] at the rim.
+    /// The halfedge across each halfedge; [`RIM`] at the rim.
     across: Vec<u32>,
     /// All edges between its vertices, those of the surface around among them.
     taken: FxHashSet<[u32; 2]>,
 }
 
-/// The number that stands for no side across.
+/// The number that stands for no halfedge across.
 const RIM: u32 = u32::MAX;
 
 /// The sum of the cotangents at both corners opposite an edge below which the other diagonal is better.
@@ -39,13 +39,13 @@ impl Patch {
         triangles: Vec<[u32; 3]>,
         mut taken: FxHashSet<[u32; 2]>,
     ) -> Self {
-        let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * triangles.len());
+        let mut halfedges: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * triangles.len());
         for (t, corners) in triangles.iter().enumerate() {
-            sides.extend((0..3).map(|k| (ends(corners[k], corners[(k + 1) % 3]), (3 * t + k) as u32)));
+            halfedges.extend((0..3).map(|k| (ends(corners[k], corners[(k + 1) % 3]), (3 * t + k) as u32)));
         }
-        sides.sort_unstable();
-        let mut across = vec![RIM; sides.len()];
-        for pair in sides.chunk_by(|a, b| a.0 == b.0) {
+        halfedges.sort_unstable();
+        let mut across = vec![RIM; halfedges.len()];
+        for pair in halfedges.chunk_by(|a, b| a.0 == b.0) {
             taken.insert(pair[0].0);
             if let [(_, s), (_, t)] = *pair {
                 (across[s as usize], across[t as usize]) = (t, s);
@@ -77,10 +77,10 @@ impl Patch {
         self.taken.extend([a, b, c].map(|w| ends(v, w)));
     }
 
-    fn join(&mut self, side: usize, other: u32) {
-        self.across[side] = other;
+    fn join(&mut self, h: usize, other: u32) {
+        self.across[h] = other;
         if other != RIM {
-            self.across[other as usize] = side as u32;
+            self.across[other as usize] = h as u32;
         }
     }
 
@@ -89,9 +89,9 @@ impl Patch {
     pub fn flip_to_delaunay(&mut self) {
         for _ in 0..FLIP_ROUNDS {
             let mut flips = 0;
-            for side in 0..self.across.len() {
-                if self.across[side] != RIM && self.is_better_flipped(side) {
-                    self.flip(side);
+            for h in 0..self.across.len() {
+                if self.across[h] != RIM && self.is_better_flipped(h) {
+                    self.flip(h);
                     flips += 1;
                 }
             }
@@ -101,15 +101,15 @@ impl Patch {
         }
     }
 
-    /// The corner opposite a side.
-    fn opposite(&self, side: usize) -> u32 {
-        self.triangles[side / 3][(side + 2) % 3]
+    /// The corner opposite a halfedge.
+    fn opposite(&self, h: usize) -> u32 {
+        self.triangles[h / 3][(h + 2) % 3]
     }
 
-    fn is_better_flipped(&self, side: usize) -> bool {
-        let other = self.across[side] as usize;
-        let [c, d] = [self.opposite(side), self.opposite(other)];
-        let [a, b] = [self.triangles[side / 3][side % 3], self.triangles[other / 3][other % 3]];
+    fn is_better_flipped(&self, h: usize) -> bool {
+        let other = self.across[h] as usize;
+        let [c, d] = [self.opposite(h), self.opposite(other)];
+        let [a, b] = [self.triangles[h / 3][h % 3], self.triangles[other / 3][other % 3]];
         let [p, q, r, s] = [a, b, c, d].map(|v| self.points[v as usize]);
         let cotangent = |at: DVec3| triangle::cotangent_between(p - at, q - at);
         let sum = cotangent(r) + cotangent(s);
@@ -121,14 +121,14 @@ impl Patch {
         normals.iter().all(|n| n.dot(old) > 0.0) && normals[0].dot(normals[1]) > 0.0
     }
 
-    fn flip(&mut self, side: usize) {
-        let other = self.across[side] as usize;
-        let (t, u) = (side / 3, other / 3);
-        let corner = |side: usize, on: usize| self.triangles[side / 3][(side + on) % 3];
-        let around = |side: usize, on: usize| self.across[3 * (side / 3) + (side + on) % 3];
-        let [a, b, c] = [corner(side, 0), corner(side, 1), corner(side, 2)];
+    fn flip(&mut self, h: usize) {
+        let other = self.across[h] as usize;
+        let (t, u) = (h / 3, other / 3);
+        let corner = |h: usize, on: usize| self.triangles[h / 3][(h + on) % 3];
+        let around = |h: usize, on: usize| self.across[3 * (h / 3) + (h + on) % 3];
+        let [a, b, c] = [corner(h, 0), corner(h, 1), corner(h, 2)];
         let d = corner(other, 2);
-        let [bc, ca, ad, db] = [around(side, 1), around(side, 2), around(other, 1), around(other, 2)];
+        let [bc, ca, ad, db] = [around(h, 1), around(h, 2), around(other, 1), around(other, 2)];
         self.taken.remove(&ends(a, b));
         self.taken.insert(ends(c, d));
         self.triangles[t] = [a, d, c];
@@ -149,11 +149,11 @@ impl Patch {
             (normal.length() > FLAT * longest).then(|| normal.normalize_or_zero())
         };
         let normals: Option<Vec<DVec3>> = (0..self.triangles.len()).map(normal).collect();
-        let bent_back = |normals: &[DVec3], side: usize| {
-            let other = self.across[side];
-            other != RIM && normals[side / 3].dot(normals[other as usize / 3]) < BENT_BACK
+        let bent_back = |normals: &[DVec3], h: usize| {
+            let other = self.across[h];
+            other != RIM && normals[h / 3].dot(normals[other as usize / 3]) < BENT_BACK
         };
-        normals.is_some_and(|normals| !(0..self.across.len()).any(|side| bent_back(&normals, side)))
+        normals.is_some_and(|normals| !(0..self.across.len()).any(|h| bent_back(&normals, h)))
     }
 
     /// The area of the cap.
@@ -179,16 +179,16 @@ mod tests {
 
     /// Neighbours name each other, along one edge in opposite directions.
     fn check(patch: &Patch) {
-        for side in 0..patch.across.len() {
-            let [a, b] = [patch.triangles[side / 3][side % 3], patch.triangles[side / 3][(side + 1) % 3]];
+        for h in 0..patch.across.len() {
+            let [a, b] = [patch.triangles[h / 3][h % 3], patch.triangles[h / 3][(h + 1) % 3]];
             assert!(patch.taken.contains(&ends(a, b)));
-            let other = patch.across[side];
+            let other = patch.across[h];
             if other == RIM {
                 assert!((a as usize) < patch.rim && (b as usize) < patch.rim);
                 continue;
             }
             let other = other as usize;
-            assert_eq!(patch.across[other] as usize, side);
+            assert_eq!(patch.across[other] as usize, h);
             let back = [patch.triangles[other / 3][(other + 1) % 3], patch.triangles[other / 3][other % 3]];
             assert_eq!([a, b], back);
         }

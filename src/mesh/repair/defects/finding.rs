@@ -53,9 +53,9 @@ pub fn defects(
         }
     }
     look_outwards(&mut found, &draft, &edges);
-    found.add(DefectKind::OpenRim, lines(&edges, |edge| edge.sides.len() == 1));
-    found.add(DefectKind::CrowdedEdges, lines(&edges, |edge| edge.sides.len() > 2));
-    let torn: FxHashSet<[u32; 2]> = turns.seams.iter().map(|&side| ends_of(&draft.faces, side)).collect();
+    found.add(DefectKind::OpenRim, lines(&edges, |edge| edge.halfedges.len() == 1));
+    found.add(DefectKind::CrowdedEdges, lines(&edges, |edge| edge.halfedges.len() > 2));
+    let torn: FxHashSet<[u32; 2]> = turns.seams.iter().map(|&h| ends_of(&draft.faces, h)).collect();
     found.add(DefectKind::OneSidedSeam, lines(&edges, |edge| torn.contains(&edge.ends)));
     found.add(DefectKind::TurnedPatch, patches(&draft, &edges, &turns));
     let pinched = pinched_vertices(&draft, &edges);
@@ -103,8 +103,8 @@ fn lines(edges: &[Edge], is_one: impl Fn(&Edge) -> bool) -> Vec<Defect> {
     chains(&edges).into_iter().map(|line| Defect { lines: vec![line], faces: Vec::new() }).collect()
 }
 
-fn ends_of(faces: &[DraftFace], side: usize) -> [u32; 2] {
-    let [a, b] = faces[side / 3].side(side % 3);
+fn ends_of(faces: &[DraftFace], h: usize) -> [u32; 2] {
+    let [a, b] = faces[h / 3].edge(h % 3);
     [a.min(b), a.max(b)]
 }
 
@@ -129,9 +129,9 @@ fn number_of(face: &DraftFace) -> Vec<u32> {
 /// Faces that look the other way, those beside each other together, within their border.
 fn patches(draft: &Draft, edges: &[Edge], turns: &Turns) -> Vec<Defect> {
     let mut across = across(&draft.faces, edges);
-    let differs = |side: usize, other: u32| turns.turned[side / 3] != turns.turned[other as usize / 3];
+    let differs = |h: usize, other: u32| turns.turned[h / 3] != turns.turned[other as usize / 3];
     let border: Vec<bool> =
-        across.iter().enumerate().map(|(side, &other)| other != NONE && differs(side, other)).collect();
+        across.iter().enumerate().map(|(h, &other)| other != NONE && differs(h, other)).collect();
     across.iter_mut().zip(&border).filter(|(_, is_border)| **is_border).for_each(|(other, _)| *other = NONE);
     let part = parts(draft.faces.len(), &across);
     let mut place = vec![usize::MAX; draft.faces.len()];
@@ -141,28 +141,28 @@ fn patches(draft: &Draft, edges: &[Edge], turns: &Turns) -> Vec<Defect> {
             place[part[f]] = found.len();
             found.push(Default::default());
         }
-        let (faces, sides) = &mut found[place[part[f]]];
+        let (faces, halfedges) = &mut found[place[part[f]]];
         faces.extend(number_of(face));
-        sides.extend((3 * f..3 * f + 3).filter(|&side| border[side]).map(|side| ends_of(&draft.faces, side)));
+        halfedges.extend((3 * f..3 * f + 3).filter(|&h| border[h]).map(|h| ends_of(&draft.faces, h)));
     }
     found.sort_by_key(|(faces, _)| std::cmp::Reverse(faces.len()));
-    found.into_iter().map(|(faces, sides)| Defect { lines: chains(&sides), faces }).collect()
+    found.into_iter().map(|(faces, halfedges)| Defect { lines: chains(&halfedges), faces }).collect()
 }
 
 /// Vertices with several fans of faces, but for those on crowded edges.
 fn pinched_vertices(draft: &Draft, edges: &[Edge]) -> Vec<Defect> {
     let mut fans = DisjointSets::new(3 * draft.faces.len());
-    let corner = |side: u32, v: u32| {
-        let f = side as usize / 3;
+    let corner = |h: u32, v: u32| {
+        let f = h as usize / 3;
         3 * f + draft.faces[f].corners.iter().position(|&w| w == v).unwrap_or(0)
     };
     let mut is_crowded = vec![false; draft.positions.len()];
-    for Edge { ends, sides } in edges {
-        if let [a, b] = sides[..] {
+    for Edge { ends, halfedges } in edges {
+        if let [a, b] = halfedges[..] {
             ends.iter().for_each(|&v| {
                 fans.join(corner(a, v), corner(b, v));
             });
-        } else if sides.len() > 2 {
+        } else if halfedges.len() > 2 {
             ends.iter().for_each(|&v| is_crowded[v as usize] = true);
         }
     }

@@ -146,7 +146,7 @@ fn cotree(graph: &Graph, tree: &Tree) -> (Cotree, Vec<u32>) {
 }
 
 fn faces_at(graph: &Graph, edge: u32) -> [usize; 2] {
-    graph.sides[edge as usize].map(|side| side as usize / 3)
+    graph.halfedges[edge as usize].map(|h| h as usize / 3)
 }
 
 fn across(graph: &Graph, edge: u32, face: u32) -> u32 {

@@ -93,21 +93,21 @@ fn from_least(found: Generator) -> Generator {
 
 /// Cuts a surface along a simple loop, and closes both rims.
 fn cut(mut draft: Draft, graph: &Graph, along: &Generator) -> (Draft, Cut) {
-    let sides = sides(&draft, graph, along);
+    let halfedges = halfedges(&draft, graph, along);
     let mut across = vec![NONE; 3 * draft.faces.len()];
-    for &[a, b] in &graph.sides {
+    for &[a, b] in &graph.halfedges {
         (across[a as usize], across[b as usize]) = (b, a);
     }
-    sides.iter().flatten().for_each(|&side| across[side] = NONE);
+    halfedges.iter().flatten().for_each(|&h| across[h] = NONE);
     let vertices = along.vertices.iter().map(|&v| draft.number(v)).collect();
     let places = along.vertices.iter().map(|&v| draft.positions[v as usize]).collect();
     copy_vertices(&mut draft, fans(&across));
-    // For the sides that run against the loop the ends are taken, so that both rims follow the loop.
-    let start = |side: usize| draft.faces[side / 3].corners[side % 3];
-    let end = |side: usize| draft.faces[side / 3].corners[(side + 1) % 3];
+    // For the halfedges that run against the loop the ends are taken, so that both rims follow the loop.
+    let start = |h: usize| draft.faces[h / 3].corners[h % 3];
+    let end = |h: usize| draft.faces[h / 3].corners[(h + 1) % 3];
     let rims = CutRims {
-        along: sides.iter().map(|[along, _]| start(*along)).collect(),
-        against: sides.iter().map(|[_, against]| end(*against)).collect(),
+        along: halfedges.iter().map(|[along, _]| start(*along)).collect(),
+        against: halfedges.iter().map(|[_, against]| end(*against)).collect(),
     };
     let before = draft.faces.len();
     add_wall(&mut draft, &rims, chords(graph, &along.vertices));
@@ -117,14 +117,14 @@ fn cut(mut draft: Draft, graph: &Graph, along: &Generator) -> (Draft, Cut) {
     (draft, cut)
 }
 
-/// For each edge of a loop the side that runs along the loop, and the side that runs against it.
-fn sides(draft: &Draft, graph: &Graph, along: &Generator) -> Vec<[usize; 2]> {
-    let side = |(&edge, &v): (&u32, &u32)| {
-        let [a, b] = graph.sides[edge as usize].map(|side| side as usize);
+/// For each edge of a loop the halfedge that runs along the loop, and the halfedge that runs against it.
+fn halfedges(draft: &Draft, graph: &Graph, along: &Generator) -> Vec<[usize; 2]> {
+    let directed = |(&edge, &v): (&u32, &u32)| {
+        let [a, b] = graph.halfedges[edge as usize].map(|h| h as usize);
         let runs_along = draft.faces[a / 3].corners[a % 3] == v;
         if runs_along { [a, b] } else { [b, a] }
     };
-    along.edges.iter().zip(&along.vertices).map(side).collect()
+    along.edges.iter().zip(&along.vertices).map(directed).collect()
 }
 
 /// Edges between vertices of a loop, by their places along it, the lesser first.

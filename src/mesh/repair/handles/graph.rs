@@ -6,8 +6,8 @@ use super::super::draft::{Draft, edges};
 pub(super) struct Graph {
     /// The ends of each edge, the lesser number first.
     pub ends: Vec<[u32; 2]>,
-    /// Both sides 3 f + k along each edge, the lesser first.
-    pub sides: Vec<[u32; 2]>,
+    /// Both halfedges 3 f + k along each edge, the lesser first.
+    pub halfedges: Vec<[u32; 2]>,
     /// The lengths of the edges.
     pub lengths: Vec<f64>,
     /// Number of faces.
@@ -23,8 +23,8 @@ impl Graph {
     pub fn new(draft: &Draft) -> Option<Self> {
         let edges = edges(&draft.faces);
         let ends: Vec<[u32; 2]> = edges.iter().map(|edge| edge.ends).collect();
-        let sides: Option<Vec<[u32; 2]>> =
-            edges.iter().map(|edge| <[u32; 2]>::try_from(&edge.sides[..]).ok()).collect();
+        let halfedges: Option<Vec<[u32; 2]>> =
+            edges.iter().map(|edge| <[u32; 2]>::try_from(&edge.halfedges[..]).ok()).collect();
         let at = |v: u32| draft.positions[v as usize];
         let lengths = ends.iter().map(|&[a, b]| at(a).distance(at(b))).collect();
         let mut first = vec![0_u32; draft.positions.len() + 1];
@@ -40,7 +40,7 @@ impl Graph {
                 next[v as usize] += 1;
             }
         }
-        Some(Self { ends, sides: sides?, lengths, faces: draft.faces.len(), first, links })
+        Some(Self { ends, halfedges: halfedges?, lengths, faces: draft.faces.len(), first, links })
     }
 
     /// Number of vertices, also of those without an edge.
