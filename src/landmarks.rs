@@ -33,7 +33,7 @@ pub struct Landmarks {
 #[non_exhaustive]
 pub enum LandmarkError {
     /// Fewer than four pairs.
-    #[error("{count} landmark pairs are too few: pick at least 4")]
+    #[error("{count} landmark pairs are too few: pick at least {LEAST_LANDMARKS}")]
     TooFew {
         /// Number of pairs.
         count: usize,

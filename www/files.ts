@@ -14,7 +14,6 @@ import { wholePairs } from './store/order.ts';
 import type { DefectGroup, Examined } from './store/defects.ts';
 import { update } from './store/reducer.ts';
 import type { MeshFile, State } from './store/state.ts';
-import type { LookKind } from './store/work.ts';
 import { checkLandmarks, unpackDefects, unpackMesh } from './wasm/page.js';
 
 export type { NamedBytes } from './named-file.ts';
@@ -36,7 +35,7 @@ export function meshFile({ file, reading }: ReadFile): MeshFile {
     vertexCount: mesh.vertexCount,
     faceCount: mesh.faceCount,
     turnedFaces: mesh.turnedFaces,
-    look: mesh.lookKind() as LookKind,
+    look: mesh.lookKind(),
     repairs: reading.repairs,
   };
 }

@@ -4,7 +4,7 @@ import type { LandmarkFile, Side, SurfacePoint } from './landmarks.ts';
 import { fileSentence, failureSentence } from './messages.ts';
 import type { NamedBytes } from './named-file.ts';
 import { FileRefused } from './named-file.ts';
-import type { LandmarkFormatInfo, LoadedMesh } from './wasm/page.js';
+import type { LandmarkContent, LandmarkFormatInfo, LoadedMesh } from './wasm/page.js';
 import {
   landmarkContent,
   landmarkFormats,
@@ -14,9 +14,6 @@ import {
   writeLandmarkPairs,
   writeLandmarkSide,
 } from './wasm/page.js';
-
-/** Landmarks of one mesh, of both, or pairs in the meshes' own numbers, which need no mesh to be read. */
-export type LandmarkContent = 'one' | 'both' | 'pairs';
 
 /** A landmark of one mesh. */
 export interface SideMark {
@@ -72,7 +69,7 @@ function blamed(files: readonly NamedBytes[], thrown: unknown): NamedBytes | und
 /** What a file holds; `null` where it is no landmark file. Throws {@link FileRefused} for one that cannot be read. */
 export function contentOf(file: NamedBytes): LandmarkContent | null {
   try {
-    return (landmarkContent(file.name, file.bytes) as LandmarkContent | undefined) ?? null;
+    return landmarkContent(file.name, file.bytes) ?? null;
   } catch (thrown) {
     throw refusal(file, thrown);
   }

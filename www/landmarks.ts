@@ -1,5 +1,7 @@
 /** Points, pairs and suggestions of landmarks: types that the store, the sentences and the views share. */
 
+import type { Reason } from './wasm/core.js';
+
 /** 0 the source, 1 the target. */
 export type Side = 0 | 1;
 export const SIDES: readonly [0, 1] = [0, 1];
@@ -71,7 +73,7 @@ export function rounded(point: SurfacePoint): SurfacePoint {
 export interface Suggestion {
   readonly point: number;
   /** The end of a limb, or far from all landmarks. */
-  readonly reason: 'tip' | 'far';
+  readonly reason: Reason;
   /** Its name on the page. */
   readonly letter: string;
   /** The letter of the suggestion that looks alike, as left and right do. */

@@ -6,7 +6,7 @@ export type { CertificateReport, ConeMetricReport, CoverageReport, LayoutSearchR
 /** The numbers of a run, and where its soft landmarks settled. */
 export type Report = RunReport & { readonly settled?: readonly SettledLandmark[] };
 
-export type { MatchReport, OtherMap, Scheme } from './wasm/core.js';
+export type { BorderCase, FindingKind, MatchReport, MeshSide, OtherMap, RepairKind, Scheme, Stage } from './wasm/core.js';
 
 /** Landmark pairs that the program has found. */
 export type Candidate = CandidateReport;

@@ -14,6 +14,6 @@ pub use farthest::{Spread, farthest_points};
 pub use limbs::unmarked_limbs;
 pub use mirror::{Mirror, best_mirror, mirror_of};
 pub use partner::{Partner, partner};
-pub use suggestion::{Reason, Suggestion, kept, suggest};
+pub use suggestion::{Reason, Suggestion, USUAL_COUNT, kept, suggest};
 pub use symmetry::partners;
 pub use tips::tips;

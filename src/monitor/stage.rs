@@ -6,6 +6,7 @@ use std::fmt;
 /// The stages a user waits for, in the order in which a run passes them; no run passes all of them
 /// ([`crate::pipeline::PipelineOptions::stages`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
 pub enum Stage {
     /// Files are read and checked, landmarks inserted.

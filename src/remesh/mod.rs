@@ -20,6 +20,6 @@ mod variants;
 mod working;
 
 pub use carry::carried;
-pub use remeshing::{Error, Options, Remeshed, remesh};
+pub use remeshing::{Error, Options, Remeshed, USUAL_CREASE_ANGLE, remesh};
 pub use report::{Distances, EdgeLengths, Report};
 pub use variants::{Noise, decimated, perturbed};

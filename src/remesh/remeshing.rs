@@ -10,6 +10,9 @@ use crate::mesh::surface_index::SurfaceIndex;
 use crate::monitor::{Cancelled, Monitor, Stage, Step};
 use std::f64::consts::FRAC_PI_4;
 
+/// The crease angle where a user says nothing, in radians.
+pub const USUAL_CREASE_ANGLE: f64 = FRAC_PI_4;
+
 /// How a surface is remeshed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
@@ -24,7 +27,7 @@ pub struct Options {
 impl Options {
     /// The usual way to a number of triangles.
     pub fn to_faces(faces: usize) -> Self {
-        Self { faces, crease_angle: FRAC_PI_4, max_rounds: 60 }
+        Self { faces, crease_angle: USUAL_CREASE_ANGLE, max_rounds: 60 }
     }
 }
 

@@ -33,8 +33,9 @@ const NEAREST: f32 = 0.12;
 
 /// A direction to look from.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
-pub enum From {
+pub enum LookFrom {
     /// From ahead.
     Front,
     /// From behind.
@@ -190,14 +191,14 @@ impl Camera {
     }
 
     /// Looks from one of six sides, the up axis up; target and distance stay.
-    pub fn look_from(&mut self, from: From) {
+    pub fn look_from(&mut self, from: LookFrom) {
         let (yaw, pitch) = match from {
-            From::Front => (0.0, 0.0),
-            From::Back => (PI, 0.0),
-            From::Right => (FRAC_PI_2, 0.0),
-            From::Left => (1.5 * PI, 0.0),
-            From::Top => (0.0, FRAC_PI_2),
-            From::Bottom => (0.0, -FRAC_PI_2),
+            LookFrom::Front => (0.0, 0.0),
+            LookFrom::Back => (PI, 0.0),
+            LookFrom::Right => (FRAC_PI_2, 0.0),
+            LookFrom::Left => (1.5 * PI, 0.0),
+            LookFrom::Top => (0.0, FRAC_PI_2),
+            LookFrom::Bottom => (0.0, -FRAC_PI_2),
         };
         (self.yaw, self.pitch, self.roll) = (yaw, pitch, 0.0);
     }
@@ -356,12 +357,12 @@ mod tests {
             };
             let right = up.direction().cross(up.front());
             for (from, axis) in [
-                (From::Front, up.front()),
-                (From::Back, -up.front()),
-                (From::Right, right),
-                (From::Left, -right),
-                (From::Top, up.direction()),
-                (From::Bottom, -up.direction()),
+                (LookFrom::Front, up.front()),
+                (LookFrom::Back, -up.front()),
+                (LookFrom::Right, right),
+                (LookFrom::Left, -right),
+                (LookFrom::Top, up.direction()),
+                (LookFrom::Bottom, -up.direction()),
             ] {
                 assert!(back(from).distance(axis) < 1e-5, "{up:?} {from:?}");
             }

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum Stroke {
     /// A line in one piece.
@@ -38,6 +39,7 @@ impl Stroke {
 
 /// How faces are filled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum Fill {
     /// Stripes that fall to the right.
@@ -64,6 +66,7 @@ impl Fill {
 
 /// How a place is marked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum Sign {
     /// A square on its corner.

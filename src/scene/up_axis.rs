@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// The axis of a mesh that points up on the screen.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub enum UpAxis {
     /// Along +x.
     #[serde(rename = "x")]

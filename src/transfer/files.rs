@@ -54,6 +54,9 @@ impl Raster {
     pub const USUAL_BORDER: u8 = 8;
 }
 
+/// The mesh that gives where a user says nothing.
+pub const USUAL_GIVER: MeshSide = MeshSide::Target;
+
 impl From<MeshSide> for Direction {
     /// From this mesh to the other.
     fn from(giver: MeshSide) -> Self {

@@ -24,7 +24,7 @@ pub mod texture;
 mod values;
 
 pub use fault::{ChartFault, FaultyFile, GivenFault, TransferError};
-pub use files::{CarriedValues, FileTransfer, Motion, Raster, ValueOptions, frame_name};
+pub use files::{CarriedValues, FileTransfer, Motion, Raster, USUAL_GIVER, ValueOptions, frame_name};
 pub use formats::{CurveFormat, ValueFormat};
 pub use given_kind::{GivenFile, GivenKind, GivenKindError, given_file};
 pub use mapped_files::MappedFiles;

@@ -14,11 +14,11 @@ use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::numerics::conjugate_gradients::{CgError, CgOptions, CgWorkspace};
 use crate::surface_map::correspondence::Correspondence;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use typed_index_collections::{TiVec, ti_vec};
 
 /// How a value at a vertex is made of those of the other mesh.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]

@@ -23,7 +23,7 @@ export interface RunListener {
    * A stage begins or goes on, at most 30 times a second: its name and what the program does meanwhile in words, the share of
    * the whole run that is done (0 to 1, never falling), and the energy of the map being relaxed (4 for an isometry).
    */
-  progress(stage: string, sentence: string, share: number, residual: number, energy: number): void;
+  progress(stage: Stage, sentence: string, share: number, residual: number, energy: number): void;
   /**
    * The map as it is being made: by vertex of the checked source (those of landmarks inside faces may follow) its place on the target,
    * three numbers each.

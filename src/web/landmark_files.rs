@@ -27,6 +27,18 @@ pub struct LandmarkFormatInfo {
     holds: Holds,
 }
 
+/// What a landmark file holds.
+#[wasm_bindgen]
+#[derive(Clone, Copy, Debug)]
+pub enum LandmarkContent {
+    /// Landmarks of one mesh.
+    One = "one",
+    /// Landmarks of both meshes, in space.
+    Both = "both",
+    /// Pairs in the meshes' own numbers, which need no mesh to be read.
+    Pairs = "pairs",
+}
+
 /// A landmark of one mesh that was read.
 #[derive(Serialize)]
 pub struct ReadMark {
@@ -107,24 +119,22 @@ pub fn landmark_endings() -> String {
     endings.into_iter().map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(",")
 }
 
-/// What a file holds, if it is a landmark file: `one` mesh's landmarks, those of `both`, or `pairs` that need no mesh to be read;
-/// `undefined` for other files.
+/// What a file holds, if it is a landmark file; `undefined` for other files.
 ///
 /// # Errors
 /// `{"code": "landmarks", "message"}` for a landmark file that cannot be read.
 #[wasm_bindgen(js_name = landmarkContent)]
-pub fn landmark_content(name: &str, bytes: &[u8]) -> Result<Option<String>, JsValue> {
+pub fn landmark_content(name: &str, bytes: &[u8]) -> Result<Option<LandmarkContent>, JsValue> {
     let is_named_so = LandmarkFormat::of_name(name).is_some();
     if detect(name, bytes).is_none() && (!is_named_so || io::detect(bytes).is_some()) {
         return Ok(None);
     }
     let (_, content) = landmark_formats::read(name, bytes).map_err(|e| failure("landmarks", e))?;
-    let word = match content {
-        Content::Side(_) => "one",
-        Content::Sides(_) => "both",
-        Content::Pairs(_) => "pairs",
-    };
-    Ok(Some(word.to_owned()))
+    Ok(Some(match content {
+        Content::Side(_) => LandmarkContent::One,
+        Content::Sides(_) => LandmarkContent::Both,
+        Content::Pairs(_) => LandmarkContent::Pairs,
+    }))
 }
 
 /// Reads the landmarks of one mesh from a file that holds no more, and puts them on it: JSON, `ReadSide`. `side` is 0 for the

@@ -14,6 +14,18 @@ use crate::scene::Shading;
 use std::rc::Rc;
 use wasm_bindgen::prelude::*;
 
+/// What a mesh's file gives it of a look.
+#[wasm_bindgen]
+#[derive(Clone, Copy, Debug)]
+pub enum LookKind {
+    /// Nothing.
+    None = "none",
+    /// Places in a picture that is not there.
+    Places = "places",
+    /// Colours, or places in pictures that are there.
+    Colours = "colours",
+}
+
 /// A mesh that was read and checked.
 #[wasm_bindgen]
 pub struct LoadedMesh {
@@ -78,15 +90,14 @@ impl LoadedMesh {
         self.checked.turned_faces()
     }
 
-    /// What its file gives it of a look: `"none"`, `"places"` in a picture that is not there, or `"colours"`, with or without pictures.
+    /// What its file gives it of a look.
     #[wasm_bindgen(js_name = lookKind)]
-    pub fn look_kind(&self) -> String {
-        let kind = match self.look.as_deref() {
-            None => "none",
-            Some(look) if look.is_coloured() => "colours",
-            Some(_) => "places",
-        };
-        kind.to_owned()
+    pub fn look_kind(&self) -> LookKind {
+        match self.look.as_deref() {
+            None => LookKind::None,
+            Some(look) if look.is_coloured() => LookKind::Colours,
+            Some(_) => LookKind::Places,
+        }
     }
 
     /// How many pictures are laid on it.

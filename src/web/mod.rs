@@ -30,6 +30,8 @@ mod base_output;
 #[cfg(feature = "web-core")]
 mod compute;
 #[cfg(feature = "web-core")]
+mod core_values;
+#[cfg(feature = "web-core")]
 mod defect_search;
 #[cfg(feature = "web-core")]
 mod flows;

@@ -36,8 +36,19 @@ pub fn record_simplifications(
     Ok(Simplifications { stages, positions: job.positions() })
 }
 
-/// Collapses one of both meshes to its landmarks, drawn on both by a map file that was made with them: `from` is `source` or `target`, where
-/// this mesh decides alone, or `both`, where the source is collapsed and both decide.
+/// What is collapsed of both meshes, to be drawn on both.
+#[wasm_bindgen]
+#[derive(Clone, Copy, Debug)]
+pub enum CollapsedMesh {
+    /// The source, which decides alone.
+    Source = "source",
+    /// The target, likewise.
+    Target = "target",
+    /// The source, where both decide.
+    Both = "both",
+}
+
+/// Collapses one of both meshes to its landmarks, drawn on both by a map file that was made with them.
 ///
 /// # Errors
 /// `{"code", "message"}` with the stage's code, or that of the map file.
@@ -47,14 +58,14 @@ pub fn record_carried_simplification(
     source: &[u8],
     target: &[u8],
     landmarks: &str,
-    from: &str,
+    from: CollapsedMesh,
     listener: &RunListener,
 ) -> Result<Simplifications, JsValue> {
     let (side, lead) = match from {
-        "source" => (MeshSide::Source, Lead::Own),
-        "target" => (MeshSide::Target, Lead::Own),
-        "both" => (MeshSide::Source, Lead::Both),
-        _ => return Err(failure("options", format!("\"{from}\" is nothing to simplify from"))),
+        CollapsedMesh::Source => (MeshSide::Source, Lead::Own),
+        CollapsedMesh::Target => (MeshSide::Target, Lead::Own),
+        CollapsedMesh::Both => (MeshSide::Source, Lead::Both),
+        _ => return Err(failure("options", "there is no such mesh to simplify from")),
     };
     let mut messenger = Messenger::new(listener);
     messenger.plan(vec![PlannedStage { stage: Stage::BaseDomain, time: 1.0 }]);

@@ -1058,6 +1058,33 @@ fn map_with(files: &[PathBuf; 3], options: &[&OsStr]) -> std::process::Output {
 }
 
 #[test]
+fn entries_of_a_landmark_file_that_mean_nothing_are_told_and_are_no_warning() {
+    let folder = folder("entries_of_a_landmark_file_that_mean_nothing_are_told_and_are_no_warning");
+    let files = write_bodies(&folder);
+    let [source, target, pairs] = files.each_ref().map(PathBuf::as_path);
+    let known = std::fs::read_to_string(pairs).unwrap();
+    std::fs::write(pairs, known.replacen('{', "{\"radius\": [0.1], \"Comment\": {\"labels\": 1},", 1))
+        .unwrap();
+    let sentence = "the landmark file has entries that are not known and not used: \"Comment\", \"radius\"";
+
+    let told = landmarks([source, target], &[pairs], &[], &[]);
+    assert!(told.status.success(), "{}", errors(&told));
+    let text = String::from_utf8(told.stdout).unwrap();
+    assert!(text.ends_with(&format!("\nwarning: {sentence}\n")), "{text}");
+    let told = landmarks([source, target], &[pairs], &[], &["--json"]);
+    let value: Value = serde_json::from_slice(&told.stdout).unwrap();
+    assert_eq!(value["remarks"], serde_json::json!([{ "kind": "unknown_entries", "sentence": sentence }]));
+
+    let report = folder.join("report.json");
+    let output = map_with(&files, &[OsStr::new("--report"), report.as_os_str()]);
+    assert!(output.status.success(), "{}", errors(&output));
+    let line = format!("landmarks: {sentence}");
+    assert!(errors(&output).lines().any(|said| said == line), "{}", errors(&output));
+    let warnings = json(&report)["warnings"].clone();
+    assert!(warnings.as_array().unwrap().iter().all(|w| w["kind"] != "landmark_file"), "{warnings}");
+}
+
+#[test]
 fn what_cannot_be_written_is_found_before_the_run() {
     let folder = folder("what_cannot_be_written_is_found_before_the_run");
     let files = write_bodies(&folder);

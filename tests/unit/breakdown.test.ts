@@ -2,13 +2,14 @@
 import { afterEach, expect, test } from 'vitest';
 import { errorOf } from '../../www/app/task.ts';
 import { failureOf } from '../../www/compute/messages.ts';
+import type { Progress } from '../../www/compute/messages.ts';
 import { FileRefused } from '../../www/named-file.ts';
 import { breakdownReport, toldBreakdown } from '../../www/store/breakdown.ts';
 import { update } from '../../www/store/reducer.ts';
 import { READY, RUNNING } from './fixtures.ts';
 
 const HERE = { address: 'https://a.example/conemap/?private#s=1.mine', browser: 'A browser' };
-const PROGRESS = { stage: 'relaxation', sentence: 'Relaxing the map', share: 0.5, residual: null, energy: 5 };
+const PROGRESS: Progress = { stage: 'relaxation', sentence: 'Relaxing the map', share: 0.5, residual: null, energy: 5 };
 
 afterEach(() => {
   Reflect.deleteProperty(globalThis, 'conemapPanic');

@@ -1,5 +1,6 @@
 /** Each kind of event: what it changes, and that it changes nothing else. */
 import { expect, test } from 'vitest';
+import type { Progress } from '../../www/compute/messages.ts';
 import type { Side } from '../../www/landmarks.ts';
 import type { RunOptions } from '../../www/report.ts';
 import { change } from '../../www/store/change.ts';
@@ -24,7 +25,7 @@ interface Case<K extends Event['kind']> {
 
 const TRAP = { code: 'trap', message: 'unreachable' };
 const TASK = { sentence: 'Reading the files…' };
-const PROGRESS = { stage: 'relaxation', sentence: 'Relaxing the map', share: 0.5, residual: null, energy: 5 };
+const PROGRESS: Progress = { stage: 'relaxation', sentence: 'Relaxing the map', share: 0.5, residual: null, energy: 5 };
 const [HORSE, A, B] = [mesh('horse.stl'), suggestion(5, 'A'), suggestion(6, 'B')];
 const OPTIONS: RunOptions = { method: 'thesis', base: 'qem', cones: 'uniform', class: 'runner-up', ownCones: 10, borders: 'missing' };
 const STYLE: Style = { surface: 'colours', texture: { cells: 12, turn: 30, x: 1, y: -0.5 }, patchLines: false, textureBoundary: true, cones: false, markers: false, morph: 0.25, wipe: 0.75 };

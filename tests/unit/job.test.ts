@@ -1,11 +1,12 @@
 /** One thing at a time: tasks, runs, and when a run can start. */
 import { describe, expect, test } from 'vitest';
 import { canRun } from '../../www/store/readiness.ts';
+import type { Stage } from '../../www/report.ts';
 import type { State } from '../../www/store/state.ts';
 import { after, DONE, FOUR, OUTPUT, READY, REFUSAL, REPORT, RESULT, RUNNING } from './fixtures.ts';
 
 const [FIRST, SECOND] = [{ sentence: 'Reading the files…' }, { sentence: 'Reading the files…' }];
-const relaxed = (energy: number | null, stage = 'relaxation') =>
+const relaxed = (energy: number | null, stage: Stage = 'relaxation') =>
   ({ kind: 'run-progress', progress: { stage, sentence: 'Relaxing the map', share: 0, residual: null, energy } }) as const;
 
 describe('a run can start', () => {

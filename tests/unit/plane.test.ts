@@ -6,7 +6,8 @@ import { fitted, planeObj, planeSvg } from '../../www/method/plane-drawing.ts';
 import { stepped } from '../../www/method/parts.ts';
 import type { Spot } from '../../www/method/sheet.ts';
 import { Sheet } from '../../www/method/sheet.ts';
-import type { FlatPlanes, MapOutput } from '../../www/wasm/core.js';
+import { wordsOf } from '../../www/unions.ts';
+import type { CollapsedMesh, FlatPlanes, MapOutput } from '../../www/wasm/core.js';
 import { buildDemo, flatPlanes, recordCarriedSimplification, runMap } from '../../www/wasm/core.js';
 import { startCoreModule } from './modules.ts';
 
@@ -150,7 +151,7 @@ test('a simplification is carried to the other mesh, and every choice ends at th
   const map = viewBuffers(output);
   expect(map.triangles.length).toBeGreaterThan(0);
   const bytes = output.mapFile() ?? fail();
-  for (const from of ['source', 'target', 'both']) {
+  for (const from of wordsOf<CollapsedMesh>({ source: true, target: true, both: true })) {
     const found = recordCarriedSimplification(bytes, files[0], files[1], landmarks, from, LISTENER);
     const counts = found.counts(0);
     expect([...found.counts(1)]).toEqual([...counts]);
@@ -167,5 +168,5 @@ test('a simplification is carried to the other mesh, and every choice ends at th
       expect(Math.max(...[...last].map(near))).toBeLessThan(1e-5);
     }
   }
-  expect(() => recordCarriedSimplification(bytes, files[0], files[1], landmarks, 'nothing', LISTENER)).toThrow(/simplify/);
+  expect(() => recordCarriedSimplification(bytes, files[0], files[1], landmarks, 'nothing' as CollapsedMesh, LISTENER)).toThrow(/simplify/);
 });

@@ -10,7 +10,7 @@ type FakeWorker = InstanceType<typeof FakeWorker>;
 
 const [PAGE, CORE] = [{ name: 'page' }, { name: 'core' }] as unknown as readonly [WebAssembly.Module, WebAssembly.Module];
 const FEW = 2 ** 20;
-const SUGGEST: Extract<Question, { kind: 'suggest' }> = { kind: 'suggest', mesh: new Uint8Array(), marked: '[]', count: 3 };
+const SUGGEST: Extract<Question, { kind: 'suggest' }> = { kind: 'suggest', mesh: new Uint8Array(), marked: '[]' };
 const TRAP = { code: 'trap', message: 'unreachable' };
 const file = (name: string): { name: string; bytes: Uint8Array } => ({ name, bytes: new Uint8Array([1]) });
 let reader: AskedWorker<Question>;

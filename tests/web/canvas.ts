@@ -133,16 +133,16 @@ export async function halvesPicture(page: Page, colours: readonly [string, strin
   return Buffer.from(url.slice(url.indexOf(',') + 1), 'base64');
 }
 
-/** What is seen of an element: four bytes a pixel (red, green, blue, opacity), row by row. */
-interface Seen {
+/** A picture: four bytes a pixel (red, green, blue, opacity), row by row. */
+export interface Picture {
   readonly width: number;
+  readonly height: number;
   readonly pixels: Uint8Array;
 }
 
-async function pictureOf(page: Page, element: string): Promise<Seen> {
-  const clip = (await page.locator(element).boundingBox()) ?? fail(`${element} has no box`);
-  const picture = (await page.screenshot({ clip })).toString('base64');
-  const { width, read } = await page.evaluate(async (base64) => {
+/** The picture in a PNG file in base64, as the browser decodes it. */
+export async function decoded(page: Page, file: string): Promise<Picture> {
+  const { width, height, read } = await page.evaluate(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
     const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
     const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
@@ -156,9 +156,21 @@ async function pictureOf(page: Page, element: string): Promise<Seen> {
       };
       reader.readAsDataURL(new Blob([pixels]));
     });
-    return { width: image.width, read: text };
-  }, picture);
-  return { width, pixels: Buffer.from(read.slice(read.indexOf(',') + 1), 'base64') };
+    return { width: image.width, height: image.height, read: text };
+  }, file);
+  const pixels = Buffer.from(read.slice(read.indexOf(',') + 1), 'base64');
+  return pixels.length === 4 * width * height ? { width, height, pixels } : fail('the picture was not decoded');
+}
+
+/** Two pictures of one size. */
+export async function bothDecoded(page: Page, one: string, other: string): Promise<readonly [Picture, Picture]> {
+  const [a, b] = [await decoded(page, one), await decoded(page, other)];
+  return a.width === b.width && a.height === b.height ? [a, b] : fail('two pictures of one size are needed');
+}
+
+async function pictureOf(page: Page, element: string): Promise<Picture> {
+  const clip = (await page.locator(element).boundingBox()) ?? fail(`${element} has no box`);
+  return decoded(page, (await page.screenshot({ clip })).toString('base64'));
 }
 
 /** The pixels of what is seen of an element, four bytes each: red, green, blue, opacity. */
@@ -173,8 +185,7 @@ const APART = 40;
 /** Places well inside the picture of the body in a view, apart from each other, from the view's middle outwards. */
 export async function placesOnBody(page: Page, view: string): Promise<Spot[]> {
   const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
-  const { width, pixels } = await pictureOf(page, view);
-  const height = pixels.length / (4 * width);
+  const { width, height, pixels } = await pictureOf(page, view);
   const colour = (x: number, y: number): string => pixels.subarray(4 * (y * width + x), 4 * (y * width + x + 1)).join();
   const ground = colour(2, 2);
   const around = [-INSIDE, 0, INSIDE].flatMap((dx) => [-INSIDE, 0, INSIDE].map((dy) => [dx, dy] as const));

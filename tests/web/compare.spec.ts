@@ -2,7 +2,7 @@
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
-import { SETTLED } from './canvas.ts';
+import { bothDecoded, SETTLED } from './canvas.ts';
 import { fail, openDemo, openStep, ROOT, runMap } from './page.ts';
 import { trapping } from './trapping.ts';
 
@@ -48,31 +48,19 @@ async function views(): Promise<readonly [string, string]> {
 
 /** Of two pictures of one size: the share of pixels that differ, of those where one alone shows the body, and how many are grey in the second alone. */
 async function difference([left, right]: readonly [string, string]): Promise<{ readonly colours: number; readonly outline: number; readonly grey: number }> {
-  return page.evaluate(
-    async (pictures) => {
-      const read = async (base64: string): Promise<ImageData> => {
-        const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
-        const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
-        context?.drawImage(image, 0, 0);
-        return context?.getImageData(0, 0, image.width, image.height) ?? new ImageData(1, 1);
-      };
-      const [one, other] = await Promise.all(pictures.map(read));
-      const [a, b] = [one?.data ?? new Uint8ClampedArray(4), other?.data ?? new Uint8ClampedArray(4)];
-      const isGround = (data: Uint8ClampedArray, at: number): boolean => [0, 1, 2].every((k) => Math.abs((data[at + k] ?? 0) - (data[k] ?? 0)) < 6);
-      const isGrey = (data: Uint8ClampedArray, at: number): boolean => {
-        const [r = 0, g = 0, b = 0] = data.subarray(at, at + 3);
-        return Math.abs(r - g) < 8 && Math.abs(g - b) < 12 && b > 50 && b < 200;
-      };
-      let [colours, outline, grey] = [0, 0, 0];
-      for (let at = 0; at < a.length; at += 4) {
-        colours += [0, 1, 2].some((k) => Math.abs((a[at + k] ?? 0) - (b[at + k] ?? 0)) > 40) ? 1 : 0;
-        outline += isGround(a, at) === isGround(b, at) ? 0 : 1;
-        grey += isGrey(b, at) && !isGrey(a, at) ? 1 : 0;
-      }
-      return { colours: (4 * colours) / a.length, outline: (4 * outline) / a.length, grey };
-    },
-    [left, right],
-  );
+  const [{ pixels: a }, { pixels: b }] = await bothDecoded(page, left, right);
+  const isGround = (data: Uint8Array, at: number): boolean => [0, 1, 2].every((k) => Math.abs((data[at + k] ?? 0) - (data[k] ?? 0)) < 6);
+  const isGrey = (data: Uint8Array, at: number): boolean => {
+    const [r = 0, g = 0, b = 0] = data.subarray(at, at + 3);
+    return Math.abs(r - g) < 8 && Math.abs(g - b) < 12 && b > 50 && b < 200;
+  };
+  let [colours, outline, grey] = [0, 0, 0];
+  for (let at = 0; at < a.length; at += 4) {
+    colours += [0, 1, 2].some((k) => Math.abs((a[at + k] ?? 0) - (b[at + k] ?? 0)) > 40) ? 1 : 0;
+    outline += isGround(a, at) === isGround(b, at) ? 0 : 1;
+    grey += isGrey(b, at) && !isGrey(a, at) ? 1 : 0;
+  }
+  return { colours: (4 * colours) / a.length, outline: (4 * outline) / a.length, grey };
 }
 
 /** The figures in the table: this map's and the other one's, by name. */

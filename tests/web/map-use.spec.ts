@@ -2,7 +2,7 @@
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import type { Spot } from './canvas.ts';
-import { countDraws, distance, drawn, heads, moves, SETTLED, STEM } from './canvas.ts';
+import { bothDecoded, countDraws, distance, drawn, heads, moves, SETTLED, STEM } from './canvas.ts';
 import { fail, openDemo, openStep, runMap, showSurface } from './page.ts';
 
 interface Box {
@@ -53,30 +53,14 @@ async function seen(clip: Box): Promise<string> {
 
 /** How many pixels of two pictures differ by more than shading does, in columns from `from` to before `to`. */
 async function differing(a: string, b: string, from: number, to: number): Promise<number> {
-  return page.evaluate(
-    async ([pictures, first, end]) => {
-      const [one, other] = await Promise.all(
-        pictures.map(async (base64) => {
-          const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-          const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-          const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
-          context?.drawImage(image, 0, 0);
-          return context?.getImageData(0, 0, image.width, image.height);
-        }),
-      );
-      if (one === undefined || other?.width !== one.width || other.height !== one.height) {
-        throw new Error('two pictures of one size are needed');
-      }
-      let count = 0;
-      for (let at = 0; at < one.data.length; at += 4) {
-        const x = (at / 4) % one.width;
-        const by = Math.max(...[0, 1, 2].map((k) => Math.abs((one.data[at + k] ?? 0) - (other.data[at + k] ?? 0))));
-        count += x >= first && x < end && by > 24 ? 1 : 0;
-      }
-      return count;
-    },
-    [[a, b], from, to] as const,
-  );
+  const [one, other] = await bothDecoded(page, a, b);
+  let count = 0;
+  for (let at = 0; at < one.pixels.length; at += 4) {
+    const x = (at / 4) % one.width;
+    const by = Math.max(...[0, 1, 2].map((k) => Math.abs((one.pixels[at + k] ?? 0) - (other.pixels[at + k] ?? 0))));
+    count += x >= from && x < to && by > 24 ? 1 : 0;
+  }
+  return count;
 }
 
 function slider(): ReturnType<Page['locator']> {

@@ -7,7 +7,7 @@ import { unzipSync } from 'fflate';
 import { buildDemo, initSync } from '../../www/wasm/page.js';
 import type { Upload } from './own-files.ts';
 import { upload } from './own-files.ts';
-import { halvesPicture } from './canvas.ts';
+import { decoded, halvesPicture } from './canvas.ts';
 import { fail, open, openDemo, openStep, runMap } from './page.ts';
 
 type Point = readonly [number, number, number];
@@ -198,23 +198,16 @@ test('a texture is baked over the other mesh’s own coordinates', async () => {
   await select('Size').selectOption('512 × 512');
   const baked = await saved('Bring onto the source');
   expect(baked.name).toBe('halves-on-source.png');
-  const shares = await page.evaluate(async (base64) => {
-    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-    const picture = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-    const context = new OffscreenCanvas(picture.width, picture.height).getContext('2d');
-    context?.drawImage(picture, 0, 0);
-    const pixels = context?.getImageData(0, 0, picture.width, picture.height).data ?? new Uint8ClampedArray();
-    const found = { size: [picture.width, picture.height], red: 0, blue: 0, other: 0 };
-    for (let k = 0; k < pixels.length; k += 4) {
-      const [r = 0, g = 0, b = 0, a = 0] = pixels.subarray(k, k + 4);
-      if (a > 0) {
-        found[r > 250 && g + b < 5 ? 'red' : b > 250 && g + r < 5 ? 'blue' : 'other'] += 1;
-      }
+  const { width, height, pixels } = await decoded(page, baked.bytes.toString('base64'));
+  const shares = { red: 0, blue: 0, other: 0 };
+  for (let k = 0; k < pixels.length; k += 4) {
+    const [r = 0, g = 0, b = 0, a = 0] = pixels.subarray(k, k + 4);
+    if (a > 0) {
+      shares[r > 250 && g + b < 5 ? 'red' : b > 250 && g + r < 5 ? 'blue' : 'other'] += 1;
     }
-    return found;
-  }, baked.bytes.toString('base64'));
+  }
   const all = shares.red + shares.blue + shares.other;
-  expect(shares.size).toEqual([512, 512]);
+  expect([width, height]).toEqual([512, 512]);
   expect([shares.red / all > 0.3, shares.blue / all > 0.3, shares.other / all < 0.1], JSON.stringify(shares)).toEqual([true, true, true]);
 });
 

@@ -1,13 +1,11 @@
 /** Computes the flows of the map on the page in a worker of their own, as soon as a heat map shows what they tell. */
 import type { Core } from '../compute/core.ts';
+import { USUAL_SCHEME } from '../options.ts';
 import { wantsFlows } from '../store/flat.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { Flattening } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { startFlowing } from './watch.ts';
-
-/** The structure of the flow that the method goes by. */
-const SCHEME = 'inversive';
 
 /** Holds the worker. */
 export class Flattener {
@@ -56,7 +54,7 @@ export class Flattener {
           tell({ kind: 'failed', sentence });
         },
       },
-      SCHEME,
+      USUAL_SCHEME,
     );
   }
 }

@@ -5,10 +5,11 @@ import { filesOf, formatList } from '../landmark-files.ts';
 import { landmarkFileOf } from '../store/landmark-file.ts';
 import type { State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
+import type { LandmarkFormat } from '../wasm/page.js';
 import { errorOf } from './task.ts';
 
 /** The program's own format, which needs no mesh to be written. */
-const OWN = 'conemap';
+const OWN: LandmarkFormat = 'conemap';
 
 /** The whole pairs as files of a format: one, or one for each mesh. Throws `FileRefused`. */
 function written(state: State, id: string): readonly NamedBytes[] {

@@ -17,7 +17,7 @@ import type { Maps } from './maps.ts';
 import { perform } from './task.ts';
 
 /** In bytes. The core's memory ends at 4 GiB, and holds a file beside the mesh that is made of it. */
-const LARGEST_FILE = 2 ** 30;
+export const LARGEST_FILE = 2 ** 30;
 
 /** The bytes of a file. Throws {@link FileRefused}. */
 export async function bytesOf(file: File): Promise<NamedBytes> {

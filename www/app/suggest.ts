@@ -13,9 +13,6 @@ interface Found {
   readonly partner: number | null;
 }
 
-/** How many places are asked for, as on the command line: the tips of a body with limbs, and a few places between. */
-const SUGGESTIONS = 12;
-
 /** Suggestions with letters for names, in their order; after Z comes A again. */
 export function lettered(found: readonly Found[]): Suggestion[] {
   const letter = (index: number): string => String.fromCharCode(65 + (index % 26));
@@ -41,7 +38,7 @@ export async function suggest(store: Store, reader: FileReader, side: Side): Pro
     'Looking for places that are worth a landmark…',
     (signal) => {
       const marked = JSON.stringify(pointsOf(store.state, side).filter((point) => point !== null));
-      return reader.ask({ kind: 'suggest', mesh: file.mesh.packed(), marked, count: SUGGESTIONS }, signal);
+      return reader.ask({ kind: 'suggest', mesh: file.mesh.packed(), marked }, signal);
     },
     (json) => {
       if (file !== store.state.meshes[side]) {

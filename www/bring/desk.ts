@@ -61,9 +61,13 @@ export interface DeskHands {
   readonly save: (file: MadeFile) => void;
 }
 
+/** The sizes of a baked picture that can be chosen, up to the core's largest. */
+export const SIZES = [512, 1024, 2048, 4096, 8192] as const;
+
 /** Bytes of all files together, at most. */
 const MOST_BYTES = 2 ** 30;
 
+/** What is chosen at first; a test holds what the core has for usual against it. */
 const BEGINNING: DeskState = {
   work: null,
   given: null,

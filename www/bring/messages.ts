@@ -1,6 +1,6 @@
 /** What the page and the worker that brings files across say to each other. */
 import type { Failure } from '../compute/messages.ts';
-import type { GivenFileReport, GivenKind, TransferWish } from '../wasm/core.js';
+import type { GivenFileReport, GivenKind, MeshSide, TransferWish } from '../wasm/core.js';
 
 export type { GivenFileReport, TransferWhat, TransferWish } from '../wasm/core.js';
 
@@ -33,7 +33,7 @@ export interface Brought {
 
 /** Why nothing came, with the file at fault: the number of a given one, or a mesh's; `null` where it is none's. */
 export interface BringFailure extends Failure {
-  readonly file: number | 'source' | 'target' | null;
+  readonly file: number | MeshSide | null;
 }
 
 /** By request what is answered: by file what it may hold, or what came across. */

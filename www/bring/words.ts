@@ -1,10 +1,11 @@
 /** Words about files that are brought across. */
 import { count, fileSentence } from '../messages.ts';
+import type { MeshSide } from '../report.ts';
 import type { Result } from '../store/state.ts';
 import type { BringFailure, Kind } from './messages.ts';
 
 /** The mesh that gives. */
-export type Giver = 'source' | 'target';
+export type Giver = MeshSide;
 
 /** The mesh across. */
 export function receiverOf(giver: Giver): Giver {

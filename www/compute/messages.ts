@@ -1,6 +1,6 @@
 /** What the page and the worker say to each other. */
 
-import type { Finding, RepairOffer, RunOptions } from '../report.ts';
+import type { Finding, RepairOffer, RunOptions, Stage } from '../report.ts';
 
 /** What came with the source and the target to be laid on them: a picture, or materials with theirs. */
 export type Companions = readonly [Uint8Array | undefined, Uint8Array | undefined];
@@ -99,7 +99,7 @@ export interface MadeFiles {
 
 /** Where a run is; numbers that a step does not have are `null`. */
 export interface Progress {
-  readonly stage: string;
+  readonly stage: Stage;
   /** What the program does, in words. */
   readonly sentence: string;
   /** Share of the whole run that is done, 0 to 1; it never falls. */

@@ -1,5 +1,6 @@
 /** What the page and the worker that does parts of the method again, to be looked at, say to each other. */
 import type { OtherMap, RunOptions, Scheme } from '../report.ts';
+import type { CollapsedMesh } from '../wasm/core.js';
 import type { Failure, RunOutput } from './messages.ts';
 
 /**
@@ -9,7 +10,7 @@ import type { Failure, RunOutput } from './messages.ts';
 export type Watchable = 'flows' | 'simplifications' | 'other-map';
 
 /** What is simplified: each mesh by itself; or one of both, drawn on both by the map, or the source where both decide. */
-export type SimplifiedFrom = 'each' | 'source' | 'target' | 'both';
+export type SimplifiedFrom = 'each' | CollapsedMesh;
 
 /** What is wanted of a map. */
 export interface WatchRequest {
@@ -24,7 +25,7 @@ export interface WatchRequest {
   /** The discrete conformal structure of flows; `null` where none is wanted. */
   readonly scheme: Scheme | null;
   /** What simplifications begin with, and the map file that draws them on both meshes; `null` for each mesh by itself. */
-  readonly carried: { readonly from: Exclude<SimplifiedFrom, 'each'>; readonly map: Uint8Array } | null;
+  readonly carried: { readonly from: CollapsedMesh; readonly map: Uint8Array } | null;
   /** Which other map is wanted, and what the map was made with; `null` where none is. */
   readonly other: OtherRequest | null;
 }

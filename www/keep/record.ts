@@ -14,6 +14,7 @@ import type { State, Ui } from '../store/state.ts';
 import { INITIAL } from '../store/state.ts';
 import type { Demo, MeshFile, Work } from '../store/work.ts';
 import { workOf } from '../store/work.ts';
+import { wordsOf } from '../unions.ts';
 
 const VERSION = 1;
 /** Longer than any name, label or sentence that is meant for eyes. */
@@ -60,9 +61,9 @@ const Steps = v.pipe(v.array(v.object({ name: Text, work: WorkRecord })), v.maxL
 
 /** How a session was looked at; what this page does not know is as at the start. The theme is the browser's, and no session's. */
 const UiRecord = v.object({
-  step: v.fallback(v.picklist(['meshes', 'landmarks', 'map', 'use', 'method']), INITIAL.ui.step),
-  panel: v.fallback(v.picklist(['open', 'folded']), INITIAL.ui.panel),
-  link: v.fallback(v.picklist(['free', 'linked', 'map']), INITIAL.ui.link),
+  step: v.fallback(v.picklist(wordsOf<Ui['step']>({ meshes: true, landmarks: true, map: true, use: true, method: true })), INITIAL.ui.step),
+  panel: v.fallback(v.picklist(wordsOf<Ui['panel']>({ open: true, folded: true })), INITIAL.ui.panel),
+  link: v.fallback(v.picklist(wordsOf<Ui['link']>({ free: true, linked: true, map: true })), INITIAL.ui.link),
   cameras: v.fallback(Cameras, [null, null]),
   style: v.fallback(StyleSchema, INITIAL.ui.style),
 });

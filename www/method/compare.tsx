@@ -2,6 +2,7 @@
 import type { VNode } from 'preact';
 import type { OtherMap } from '../report.ts';
 import type { Comparison, Result } from '../store/state.ts';
+import { wordsOf } from '../unions.ts';
 import './compare.css';
 import { figuresOf } from './compared-figures.ts';
 import { OTHER_NAMES } from './compared-words.ts';
@@ -22,7 +23,7 @@ const ABOUT: Readonly<Record<OtherMap, string>> = {
   tutte: 'Each patch by Tutte’s embedding onto its flat triangle, as in methods before this one: continuous, with kinks along the patch lines. An unmarked limb that shrinks below rounding is grey.',
 };
 
-const CHOICES: readonly (OtherMap | null)[] = [null, 'start', 'equal-cones', 'patchwise', 'tutte'];
+const CHOICES: readonly (OtherMap | null)[] = [null, ...wordsOf(OTHER_NAMES)];
 
 function Choices({ comparison, choose }: Omit<CompareProps, 'result'>): VNode {
   const chosen = comparison?.which ?? null;

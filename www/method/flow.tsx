@@ -4,8 +4,10 @@ import { useEffect, useMemo, useState } from 'preact/hooks';
 import type { FlowMoment, Flows, SideFlow } from '../compute/watch-messages.ts';
 import { download } from '../dom.ts';
 import { figure, integer } from '../numbers.ts';
+import { USUAL_SCHEME } from '../options.ts';
 import { logMarks, markText } from '../plots/chart.ts';
 import type { Scheme } from '../report.ts';
+import { wordsOf } from '../unions.ts';
 import type { MeshDefects } from '../wasm/page.js';
 import { factorScale, unpackDefects } from '../wasm/page.js';
 import { gradientOf, momentCount, placesAt, radiiAt, scaleEnd } from './factors.ts';
@@ -236,26 +238,26 @@ function Player({ flows, hands, onClose }: FlowPlayerProps & { readonly flows: F
 
 /** The flows by the structure that is chosen, once they are computed. */
 export default function FlowPlayer({ hands, onClose }: FlowPlayerProps): VNode {
-  const [scheme, setScheme] = useState<Scheme>('inversive');
+  const [scheme, setScheme] = useState<Scheme>(USUAL_SCHEME);
   return (
     <div class="watched">
       <div role="radiogroup" aria-label="The discrete conformal structure of the flow" class="structures">
-        {STRUCTURES.map((structure) => (
-          <label class="check" key={structure.scheme}>
+        {wordsOf(STRUCTURES).map((one) => (
+          <label class="check" key={one}>
             <input
               type="radio"
               name="flow-structure"
-              value={structure.scheme}
-              checked={scheme === structure.scheme}
+              value={one}
+              checked={scheme === one}
               onChange={() => {
-                setScheme(structure.scheme);
+                setScheme(one);
               }}
             />
-            <span>{structure.name}</span>
+            <span>{STRUCTURES[one].name}</span>
           </label>
         ))}
       </div>
-      <p class="quiet small">{STRUCTURES.find((structure) => structure.scheme === scheme)?.about}</p>
+      <p class="quiet small">{STRUCTURES[scheme].about}</p>
       <Computed
         key={scheme}
         hands={{ start: (listener: Listener<Flows>) => hands.start(listener, scheme) }}

@@ -4,6 +4,7 @@ import { useEffect, useMemo, useState } from 'preact/hooks';
 import type { Simplifications, SimplifiedFrom } from '../compute/watch-messages.ts';
 import type { Side } from '../landmarks.ts';
 import { integer } from '../numbers.ts';
+import { wordsOf } from '../unions.ts';
 import type { Listener, SimplificationHands } from './hands.ts';
 import { usePlayed } from './played.ts';
 import { countAt, stageAt, stageCount } from './stages.ts';
@@ -95,12 +96,12 @@ function Player({ found, hands, places, onClose }: PlayerProps): VNode {
   );
 }
 
-const CHOICES: readonly (readonly [SimplifiedFrom, string, string])[] = [
-  ['each', 'Each by itself', 'Both meshes go to their own landmarks.'],
-  ['source', 'From the source', 'The source is simplified by its own shape; the map carries its triangles to the target.'],
-  ['target', 'From the target', 'The target is simplified by its own shape; the map carries its triangles to the source.'],
-  ['both', 'Jointly', 'The source is simplified where both shapes change least; the map carries its triangles to the target.'],
-];
+const CHOICES: Readonly<Record<SimplifiedFrom, { readonly text: string; readonly about: string }>> = {
+  each: { text: 'Each by itself', about: 'Both meshes go to their own landmarks.' },
+  source: { text: 'From the source', about: 'The source is simplified by its own shape; the map carries its triangles to the target.' },
+  target: { text: 'From the target', about: 'The target is simplified by its own shape; the map carries its triangles to the source.' },
+  both: { text: 'Jointly', about: 'The source is simplified where both shapes change least; the map carries its triangles to the target.' },
+};
 
 /** The stages, once they are computed, of what is chosen. */
 export default function SimplificationPlayer({ hands, places, isCarried, onClose }: SimplificationPlayerProps): VNode {
@@ -108,7 +109,7 @@ export default function SimplificationPlayer({ hands, places, isCarried, onClose
   return (
     <div class="watched">
       <div role="radiogroup" aria-label="What is simplified" class="simplified-from">
-        {CHOICES.map(([value, text]) => (
+        {wordsOf(CHOICES).map((value) => (
           <label class="check" key={value}>
             <input
               type="radio"
@@ -120,12 +121,12 @@ export default function SimplificationPlayer({ hands, places, isCarried, onClose
                 setFrom(value);
               }}
             />
-            <span>{text}</span>
+            <span>{CHOICES[value].text}</span>
           </label>
         ))}
       </div>
       <p class="quiet small">
-        {CHOICES.find(([value]) => value === from)?.[2]}
+        {CHOICES[from].about}
         {!isCarried && ' The others need a map with a map file: of the default method, between meshes that were not repaired.'}
       </p>
       <Computed

@@ -3,36 +3,30 @@ import type { Scheme } from '../report.ts';
 
 /** A structure in words. */
 export interface Structure {
-  readonly scheme: Scheme;
   readonly name: string;
   readonly about: string;
 }
 
 /** All of them, that of the texture first. */
-export const STRUCTURES: readonly Structure[] = [
-  {
-    scheme: 'inversive',
+export const STRUCTURES: Readonly<Record<Scheme, Structure>> = {
+  inversive: {
     name: 'Inversive distance',
     about: 'Circles that do not meet grow and shrink; edges are flipped so that no triangle degenerates. This flow makes the texture.',
   },
-  {
-    scheme: 'vertex-scaling',
+  'vertex-scaling': {
     name: 'Vertex scaling',
     about: 'Edges grow by the factors of their two ends; they are flipped so that no triangle degenerates.',
   },
-  {
-    scheme: 'fixed-triangulation',
+  'fixed-triangulation': {
     name: 'Inversive distance, no flips',
     about: 'The thesis’ flow, on the mesh’s own triangles: it stops where one of them loses its area.',
   },
-  {
-    scheme: 'tangential',
+  tangential: {
     name: 'Touching circles',
     about: 'Circles touch along every edge of the mesh. No triangle degenerates, but lengths begin as sums of radii, not as the mesh’s.',
   },
-  {
-    scheme: 'thurston',
+  thurston: {
     name: 'Overlapping circles',
     about: 'Thurston’s circles touch, or overlap by at most a right angle. No triangle degenerates; lengths are the mesh’s where such circles have them.',
   },
-];
+};

@@ -10,10 +10,8 @@ import type { Examined } from '../store/defects.ts';
 import type { PlaneChoice } from '../store/left-right.ts';
 import type { RefusedMesh } from '../store/refused.ts';
 import type { Axis, Doubt, Result, State } from '../store/state.ts';
+import type { LookFrom } from '../wasm/page.js';
 import type { Shell } from './shell.ts';
-
-/** A side to look from. */
-export type Direction = 'front' | 'back' | 'left' | 'right' | 'top' | 'bottom';
 
 /** What a view's camera can be asked to do. */
 export type CameraCommand =
@@ -22,7 +20,7 @@ export type CameraCommand =
   /** To go back to the first look. */
   | { readonly kind: 'reset' }
   /** To look at the whole mesh from a side. */
-  | { readonly kind: 'look'; readonly from: Direction }
+  | { readonly kind: 'look'; readonly from: LookFrom }
   /** To turn the picture counter-clockwise. */
   | { readonly kind: 'roll'; readonly degrees: number };
 

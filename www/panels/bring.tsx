@@ -2,14 +2,14 @@
 import type { VNode } from 'preact';
 import { useEffect, useReducer, useRef } from 'preact/hooks';
 import type { Choices, DeskState, Given, Role } from '../bring/desk.ts';
-import { Desk } from '../bring/desk.ts';
+import { Desk, SIZES } from '../bring/desk.ts';
 import { hindrance, KIND_NAMES, kindSentence } from '../bring/words.ts';
 import { download } from '../dom.ts';
 import '../method/watched.css';
 import { shownResult } from '../store/staleness.ts';
 import type { Actions, PartProps } from './actions.ts';
 import type { Choice } from './controls.tsx';
-import { Select } from './controls.tsx';
+import { choicesOf, Select } from './controls.tsx';
 
 /** By page what was chosen on it, which stays while other steps are open. */
 const DESKS = new WeakMap<object, Desk>();
@@ -29,16 +29,16 @@ function deskOf({ bring }: Pick<Actions, 'bring'>): Desk {
   return desk;
 }
 
-const DIRECTIONS: readonly Choice<Choices['from']>[] = [
-  { value: 'target', text: 'Target onto source' },
-  { value: 'source', text: 'Source onto target' },
-];
+const DIRECTIONS: Readonly<Record<Choices['from'], string>> = {
+  target: 'Target onto source',
+  source: 'Source onto target',
+};
 
-const METHODS: readonly Choice<Choices['method']>[] = [
-  { value: 'projection', text: 'Projection' },
-  { value: 'mean', text: 'Mean' },
-  { value: 'sample', text: 'Sample' },
-];
+const METHODS: Readonly<Record<Choices['method'], string>> = {
+  projection: 'Projection',
+  mean: 'Mean',
+  sample: 'Sample',
+};
 
 const ABOUT_METHODS: Readonly<Record<Choices['method'], string>> = {
   projection: 'The function on the other mesh that is nearest over the whole area; at sharp steps it goes a little beyond what is given.',
@@ -46,13 +46,24 @@ const ABOUT_METHODS: Readonly<Record<Choices['method'], string>> = {
   sample: 'The value at each vertex’s image: quick, but blind to what lies between the vertices.',
 };
 
-const ROLES: readonly Choice<Role>[] = [
-  { value: 'numbers', text: 'Numbers' },
-  { value: 'labels', text: 'Labels' },
-  { value: 'weights', text: 'Weights' },
-];
+const ROLES: readonly Choice<Role>[] = choicesOf<Role>({
+  numbers: 'Numbers',
+  labels: 'Labels',
+  weights: 'Weights',
+});
 
-const SIZES: readonly Choice<string>[] = ['512', '1024', '2048', '4096', '8192'].map((value) => ({ value, text: `${value} × ${value}` }));
+const VALUE_FORMATS: Readonly<Record<Choices['valueFormat'], string>> = {
+  csv: 'CSV table',
+  ply: 'PLY mesh',
+};
+
+const CURVE_FORMATS: Readonly<Record<Choices['curveFormat'], string>> = {
+  json: 'JSON',
+  csv: 'CSV',
+  obj: 'OBJ lines',
+};
+
+const SIZE_CHOICES: readonly Choice<string>[] = SIZES.map((size) => ({ value: String(size), text: `${size} × ${size}` }));
 
 /** So many columns can be told one by one. */
 const MOST_OWN_COLUMNS = 100;
@@ -101,7 +112,7 @@ function ValueChoices({ desk, choices, columns }: PartOf & { readonly columns: r
         label="Method"
         title="How a value at a vertex is made of those of the other mesh"
         value={choices.method}
-        choices={METHODS}
+        choices={choicesOf(METHODS)}
         disabled={false}
         onChoice={(method) => {
           desk.choose({ method });
@@ -111,10 +122,7 @@ function ValueChoices({ desk, choices, columns }: PartOf & { readonly columns: r
       <Select
         label="Save as"
         value={choices.valueFormat}
-        choices={[
-          { value: 'csv', text: 'CSV table' },
-          { value: 'ply', text: 'PLY mesh' },
-        ]}
+        choices={choicesOf(VALUE_FORMATS)}
         disabled={false}
         onChoice={(valueFormat) => {
           desk.choose({ valueFormat });
@@ -134,11 +142,7 @@ function KindChoices({ desk, choices, given }: PartOf & { readonly given: Given 
         <Select
           label="Save as"
           value={choices.curveFormat}
-          choices={[
-            { value: 'json', text: 'JSON' },
-            { value: 'csv', text: 'CSV' },
-            { value: 'obj', text: 'OBJ lines' },
-          ]}
+          choices={choicesOf(CURVE_FORMATS)}
           disabled={false}
           onChoice={(curveFormat) => {
             desk.choose({ curveFormat });
@@ -150,7 +154,7 @@ function KindChoices({ desk, choices, given }: PartOf & { readonly given: Given 
         <Select
           label="Size"
           value={String(choices.size)}
-          choices={SIZES}
+          choices={SIZE_CHOICES}
           disabled={false}
           onChoice={(size) => {
             desk.choose({ size: Number(size) });
@@ -311,7 +315,7 @@ export default function BringPanel({ state, actions }: PartProps): VNode {
       <Select
         label="From"
         value={choices.from}
-        choices={DIRECTIONS}
+        choices={choicesOf(DIRECTIONS)}
         disabled={false}
         onChoice={(from) => {
           desk.choose({ from });

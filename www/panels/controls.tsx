@@ -1,5 +1,6 @@
 /** Small controls that the panels share. */
 import type { ComponentChildren, VNode } from 'preact';
+import { wordsOf } from '../unions.ts';
 import type { IconName } from './icons.tsx';
 import { Icon } from './icons.tsx';
 
@@ -35,6 +36,11 @@ export interface Choice<T extends string> {
   readonly value: T;
   readonly text: string;
   readonly disabled?: boolean;
+}
+
+/** A choice for each word of a union, with its text. */
+export function choicesOf<T extends string>(texts: Readonly<Record<T, string>>): readonly Choice<T>[] {
+  return wordsOf(texts).map((value) => ({ value, text: texts[value] }));
 }
 
 interface SelectProps<T extends string> {

@@ -33,7 +33,7 @@ const OBJ = 'model/obj';
 const MORPH = 'source-to-target.glb';
 
 /** The files of a map, the most wanted first. */
-const MAP_EXPORTS: readonly MapExport[] = [
+export const MAP_EXPORTS: readonly MapExport[] = [
   { format: 'GLB', title: 'Textured mesh', about: 'The source with the target’s own colours and pictures, or with a checkerboard', name: 'conemap.glb', type: GLB, made: 'source-with-target-texture.glb', key: 'glb' },
   { format: 'Morph', title: 'Animated mesh', about: 'The source on its way to the target’s shape: limbs turn instead of shrinking', name: 'morph.glb', type: GLB, made: MORPH, key: null },
   { format: 'CSV', title: 'Images of the vertices', about: 'Where every vertex of the source lies on the target', name: 'conemap.csv', type: 'text/csv', made: 'vertex-images.csv', key: 'csv' },

@@ -6,36 +6,48 @@ import { gradientOf, scaleEnd } from '../method/factors.ts';
 import { shownStyle } from '../store/compared.ts';
 import { shownFlows } from '../store/flat.ts';
 import { shownResult } from '../store/staleness.ts';
-import type { Result, State, Style } from '../store/state.ts';
+import type { HeatMap, PlainSurface, Result, State, Style, Texture } from '../store/state.ts';
 import { isFlowHeat, isHeatMap, isTexture, isThere } from '../store/surfaces.ts';
 import { factorScale, risingScale } from '../wasm/page.js';
 import type { PartProps } from './actions.ts';
 import type { Choice } from './controls.tsx';
-import { Check } from './controls.tsx';
+import { Check, choicesOf } from './controls.tsx';
 import { Popover } from './popover.tsx';
 import { TextureControls } from './texture-controls.tsx';
 
 type Surface = Choice<Style['surface']>;
 
+const PLAIN: Readonly<Record<PlainSurface, string>> = {
+  shaded: 'Plain',
+  look: 'Own colours',
+  pattern: 'Pattern',
+  colours: 'Colours',
+};
+
 /** What can lie on the flat metric. */
-const TEXTURE_CHOICES: readonly Surface[] = [
-  { value: 'checkerboard', text: 'Checkerboard' },
-  { value: 'circles', text: 'Circles' },
-  { value: 'ribbons', text: 'Ribbons' },
-  { value: 'coordinates', text: 'Coordinates' },
-  { value: 'picture', text: 'Your picture' },
-];
+const TEXTURE_CHOICES: readonly Surface[] = choicesOf<Texture>({
+  checkerboard: 'Checkerboard',
+  circles: 'Circles',
+  ribbons: 'Ribbons',
+  coordinates: 'Coordinates',
+  picture: 'Your picture',
+});
+
+const HEAT_MAPS: Readonly<Record<HeatMap, string>> = {
+  distortion: 'Distortion',
+  angles: 'Angles',
+  areas: 'Areas',
+  factor: 'Conformal factor',
+  curvature: 'Curvature',
+  'flat-curvature': 'Curvature, flat',
+  truth: 'Distance to the truth',
+};
 
 /** What surfaces can show, in groups with their titles. */
 const GROUPS: readonly { readonly title: string | null; readonly surfaces: readonly Surface[] }[] = [
   {
     title: null,
-    surfaces: [
-      { value: 'shaded', text: 'Plain' },
-      { value: 'look', text: 'Own colours' },
-      { value: 'pattern', text: 'Pattern' },
-      { value: 'colours', text: 'Colours' },
-    ],
+    surfaces: choicesOf(PLAIN),
   },
   {
     title: 'Texture of the flat metric',
@@ -43,15 +55,7 @@ const GROUPS: readonly { readonly title: string | null; readonly surfaces: reado
   },
   {
     title: 'Heat map',
-    surfaces: [
-      { value: 'distortion', text: 'Distortion' },
-      { value: 'angles', text: 'Angles' },
-      { value: 'areas', text: 'Areas' },
-      { value: 'factor', text: 'Conformal factor' },
-      { value: 'curvature', text: 'Curvature' },
-      { value: 'flat-curvature', text: 'Curvature, flat' },
-      { value: 'truth', text: 'Distance to the truth' },
-    ],
+    surfaces: choicesOf(HEAT_MAPS),
   },
 ];
 

@@ -5,36 +5,37 @@ import type { Side } from '../landmarks.ts';
 import { shownDefects } from '../store/defects.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { Axis, State } from '../store/state.ts';
-import type { Direction, PartProps } from './actions.ts';
-import { IconButton } from './controls.tsx';
+import type { LookFrom } from '../wasm/page.js';
+import type { PartProps } from './actions.ts';
+import { choicesOf, IconButton } from './controls.tsx';
 import { SIDE_NAMES } from './names.ts';
 import { Popover } from './popover.tsx';
 
 type Props = { readonly side: Side } & PartProps;
 
-const DIRECTIONS: readonly (readonly [Direction, string])[] = [
-  ['front', 'Front'],
-  ['back', 'Back'],
-  ['left', 'Left'],
-  ['right', 'Right'],
-  ['top', 'Top'],
-  ['bottom', 'Bottom'],
-];
+const DIRECTIONS: Readonly<Record<LookFrom, string>> = {
+  front: 'Front',
+  back: 'Back',
+  left: 'Left',
+  right: 'Right',
+  top: 'Top',
+  bottom: 'Bottom',
+};
 
-const AXES: readonly (readonly [Axis, string])[] = [
-  ['y', 'Y up'],
-  ['z', 'Z up'],
-  ['x', 'X up'],
-  ['-y', 'Y down'],
-  ['-z', 'Z down'],
-  ['-x', 'X down'],
-];
+const AXES: Readonly<Record<Axis, string>> = {
+  y: 'Y up',
+  z: 'Z up',
+  x: 'X up',
+  '-y': 'Y down',
+  '-z': 'Z down',
+  '-x': 'X down',
+};
 
-const LINKS: readonly (readonly [State['ui']['link'], string])[] = [
-  ['linked', 'Turn both together'],
-  ['map', 'Both to corresponding places'],
-  ['free', 'Each by itself'],
-];
+const LINKS: Readonly<Record<State['ui']['link'], string>> = {
+  linked: 'Turn both together',
+  map: 'Both to corresponding places',
+  free: 'Each by itself',
+};
 
 /** In degrees: six presses turn by a right angle. */
 const ROLL = 15;
@@ -44,7 +45,7 @@ function Sides({ actions, side }: Props): VNode {
     <Popover icon="sides" label={`Look at the ${SIDE_NAMES[side]} from a side`} place="up start">
       {() => (
         <div class="tiles">
-          {DIRECTIONS.map(([from, text]) => (
+          {choicesOf(DIRECTIONS).map(({ value: from, text }) => (
             <button
               key={from}
               type="button"
@@ -68,7 +69,7 @@ function AxisChoice({ state, actions, side }: Props): VNode {
     <>
       <p class="title">Turn upright</p>
       <div class="tiles">
-        {AXES.map(([axis, text]) => (
+        {choicesOf(AXES).map(({ value: axis, text }) => (
           <button
             key={axis}
             type="button"
@@ -82,7 +83,7 @@ function AxisChoice({ state, actions, side }: Props): VNode {
         ))}
       </div>
       {proposed !== null && proposed !== state.up[side] && (
-        <p class="small title">By its shape: {AXES.find(([axis]) => axis === proposed)?.[1]}</p>
+        <p class="small title">By its shape: {AXES[proposed]}</p>
       )}
     </>
   );
@@ -132,7 +133,7 @@ function Link({ state, actions }: Props): VNode {
   return (
     <Popover icon={state.ui.link === 'free' ? 'unlink' : 'link'} label="Link the cameras" place="up start">
       {(close) =>
-        LINKS.map(([link, text]) => (
+        choicesOf(LINKS).map(({ value: link, text }) => (
           <button
             key={link}
             type="button"

@@ -70,9 +70,9 @@ function mirrored(packed: Uint8Array, landmarks: Uint8Array, name: string): Mirr
   return answer;
 }
 
-function suggestions(packed: Uint8Array, marked: string, count: number): string {
+function suggestions(packed: Uint8Array, marked: string): string {
   const mesh = unpackMesh(packed);
-  const answer = suggestLandmarks(mesh, marked, count);
+  const answer = suggestLandmarks(mesh, marked);
   mesh.free();
   return answer;
 }
@@ -94,7 +94,7 @@ export function meshAnswer(question: MeshQuestion): Answers[MeshQuestion['kind']
     case 'mirror':
       return mirrored(question.mesh, question.landmarks, question.name);
     case 'suggest':
-      return suggestions(question.mesh, question.marked, question.count);
+      return suggestions(question.mesh, question.marked);
     case 'plane':
       return plane(question.mesh, question.wish);
   }

@@ -1,9 +1,9 @@
 /** What the page and the workers that read files and meshes say to each other. */
 import type { Failure } from '../compute/messages.ts';
-import type { LandmarkContent } from '../landmark-files.ts';
 import type { NamedBytes } from '../named-file.ts';
 import type { RepairOffer } from '../report.ts';
 import type { Allowed } from '../store/refused.ts';
+import type { LandmarkContent } from '../wasm/page.js';
 
 /** Bytes that can be handed over. */
 export type OwnBytes = Uint8Array<ArrayBuffer>;
@@ -76,7 +76,7 @@ export type MeshQuestion =
   /** `landmarks` is a landmark file, whose second points are the target's; `name` is the image's. */
   | { readonly kind: 'mirror'; readonly mesh: Uint8Array; readonly landmarks: Uint8Array; readonly name: string }
   /** At most `count` places that are worth a landmark beside the `marked` ones, a JSON array of points. */
-  | { readonly kind: 'suggest'; readonly mesh: Uint8Array; readonly marked: string; readonly count: number }
+  | { readonly kind: 'suggest'; readonly mesh: Uint8Array; readonly marked: string }
   /** A plane that mirrors a mesh; `wish` says which in the core's words. */
   | { readonly kind: 'plane'; readonly mesh: Uint8Array; readonly wish: string };
 

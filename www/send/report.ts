@@ -1,6 +1,8 @@
 /** The shape of a run's report as a map file holds it: the file may come from anywhere. */
 import * as v from 'valibot';
-import type { Report } from '../report.ts';
+import { BORDERS } from '../options.ts';
+import type { BorderCase, FindingKind, MeshSide, RepairKind, Report } from '../report.ts';
+import { wordsOf } from '../unions.ts';
 import { Index, Text, Weight } from './schema.ts';
 
 /** In characters: some hundred kB with ten thousand landmarks in doubt. */
@@ -19,9 +21,9 @@ const ConeMetric = v.object({
 });
 const Rim = v.object({ vertex: Index, vertices: Index, length: Figure });
 const Finding = v.object({
-  kind: v.picklist(['mirrored', 'swapped', 'misplaced', 'unmarked_limbs']),
+  kind: v.picklist(wordsOf<FindingKind>({ mirrored: true, swapped: true, misplaced: true, unmarked_limbs: true })),
   pairs: v.array(Index),
-  repair: v.picklist(['mirror_target', 'swap', 'check', 'mark']),
+  repair: v.picklist(wordsOf<RepairKind>({ mirror_target: true, swap: true, check: true, mark: true })),
   sentence: Text,
   agreement: MaybeFigure,
   misfit: v.nullable(v.strictTuple([Figure, Figure])),
@@ -51,8 +53,8 @@ export const ReportSchema = v.object({
   borders: v.optional(
     v.nullable(
       v.object({
-        case: v.picklist(['missing', 'corresponding']),
-        asked: v.picklist(['guess', 'corresponding', 'missing']),
+        case: v.picklist(wordsOf<BorderCase>({ missing: true, corresponding: true })),
+        asked: v.picklist(wordsOf(BORDERS)),
         rims: v.array(v.object({ source: Rim, target: Rim, misfit: Figure })),
       }),
     ),
@@ -84,7 +86,7 @@ export const ReportSchema = v.object({
   faces: v.object({ source: Index, target: Index }),
   findings: v.array(Finding),
   warnings: v.array(
-    v.object({ kind: Text, sentence: Text, value: MaybeFigure, side: v.nullable(v.picklist(['source', 'target'])) }),
+    v.object({ kind: Text, sentence: Text, value: MaybeFigure, side: v.nullable(v.picklist(wordsOf<MeshSide>({ source: true, target: true }))) }),
   ),
   seconds: v.record(Text, Figure),
 }) satisfies v.GenericSchema<unknown, Report>;

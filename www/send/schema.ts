@@ -2,9 +2,11 @@
 import * as v from 'valibot';
 import type { Pair, SurfacePoint } from '../landmarks.ts';
 import { MAX_RADIUS } from '../landmarks.ts';
+import { BASES, BORDERS, CLASSES, CONES, METHODS } from '../options.ts';
 import type { RunOptions } from '../report.ts';
-import type { Camera, Style, TexturePlace, Work } from '../store/state.ts';
+import type { Axis as UpAxis, Camera, PlainSurface, Style, TexturePlace, Work } from '../store/state.ts';
 import { FLOW_HEATS, INITIAL, MAP_HEATS, TEXTURES } from '../store/state.ts';
+import { wordsOf } from '../unions.ts';
 
 /** More pairs than a map was ever made of. */
 export const MOST_PAIRS = 10_000;
@@ -23,15 +25,15 @@ export const Index = v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(2
 /** Whether three weights belong together is the core's to judge, as in a landmark file. */
 export const Weight = v.pipe(v.number(), v.finite(), v.minValue(-1), v.maxValue(2));
 export const Text = v.pipe(v.string(), v.maxLength(LONGEST_TEXT));
-export const Axis = v.picklist(['x', '-x', 'y', '-y', 'z', '-z']);
+export const Axis = v.picklist(wordsOf<UpAxis>({ x: true, '-x': true, y: true, '-y': true, z: true, '-z': true }));
 export const Options = v.object({
-  method: v.picklist(['relaxed', 'thesis', 'tutte']),
-  base: v.picklist(['joint', 'qem']),
-  cones: v.picklist(['base-domain', 'uniform']),
-  class: v.picklist(['best', 'runner-up']),
+  method: v.picklist(wordsOf(METHODS)),
+  base: v.picklist(wordsOf(BASES)),
+  cones: v.picklist(wordsOf(CONES)),
+  class: v.picklist(wordsOf(CLASSES)),
   ownCones: v.nullable(v.pipe(Index, v.maxValue(MOST_OWN_CONES))),
   // Links and maps of before it was a choice do not tell it.
-  borders: v.optional(v.picklist(['guess', 'corresponding', 'missing']), 'guess'),
+  borders: v.optional(v.picklist(wordsOf(BORDERS)), 'guess'),
 }) satisfies v.GenericSchema<unknown, RunOptions>;
 
 /** The options in a text; `null` where there are none. */
@@ -57,7 +59,7 @@ const TexturePlaceSchema = v.object({
 
 export const StyleSchema = v.object({
   surface: v.picklist([
-    ...(['shaded', 'look', 'pattern', 'colours'] as const),
+    ...wordsOf<PlainSurface>({ shaded: true, look: true, pattern: true, colours: true }),
     ...TEXTURES,
     ...MAP_HEATS,
     ...FLOW_HEATS,

@@ -1,6 +1,6 @@
 /** What is wrong with a mesh, or was before it was repaired, as the core found it. */
 import type { Side } from '../landmarks.ts';
-import type { MeshDefects } from '../wasm/page.js';
+import type { Fill, MeshDefects, Sign, Stroke } from '../wasm/page.js';
 
 /** All defects of one kind. */
 export interface DefectGroup {
@@ -15,9 +15,9 @@ export interface DefectGroup {
   /** As style sheets write it. */
   readonly colour: string;
   /** How its lines, faces and places are drawn; `null` where it has none. */
-  readonly stroke: 'solid' | 'dashed' | 'dotted' | 'dash-dot' | 'double' | null;
-  readonly fill: 'stripes' | 'grid' | 'dots' | 'bars' | null;
-  readonly sign: 'diamond' | 'cross' | null;
+  readonly stroke: Stroke | null;
+  readonly fill: Fill | null;
+  readonly sign: Sign | null;
 }
 
 /** A mesh that was looked at. */

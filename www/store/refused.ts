@@ -1,13 +1,12 @@
 /** Meshes that were refused: they are shown with what is wrong, and wait for a repair that would help, or to be left out. */
 import type { Side } from '../landmarks.ts';
 import type { RepairOffer } from '../report.ts';
+import type { RepairOptions } from '../wasm/core.js';
+import type { LandmarkContent } from '../wasm/page.js';
 import type { Examined } from './defects.ts';
 
 /** What a repair may do beyond what does not change the shape, as the core reads it; what is left out it may not. */
-export interface Allowed {
-  readonly parts?: 'largest-alone';
-  readonly handles?: 'cut';
-}
+export type Allowed = Readonly<Pick<RepairOptions, 'parts' | 'handles'>>;
 
 /**
  * All of it. A mesh that came onto a page with less comes out alike, so that what was accepted once is read again by this: from
@@ -25,7 +24,7 @@ export interface GivenFile {
 /** A landmark file as it was given. */
 export interface GivenMarks extends GivenFile {
   /** Landmarks of one mesh, of both, or pairs in the meshes' own numbers. */
-  readonly content: 'one' | 'both' | 'pairs';
+  readonly content: LandmarkContent;
 }
 
 /** A mesh that was refused. */

@@ -3,6 +3,7 @@ import type { RunOutput } from '../compute/messages.ts';
 import type { Flows, OtherOutput } from '../compute/watch-messages.ts';
 import type { Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import type { Finding, OtherMap, ProofReport, Report } from '../report.ts';
+import type { SurfaceStyle } from '../wasm/page.js';
 import type { AwaitedMap } from './awaited.ts';
 import type { Breakdown } from './breakdown.ts';
 import type { Examined } from './defects.ts';
@@ -20,7 +21,7 @@ import { NO_WORK } from './work.ts';
 export type { Axis, Demo, MeshFile, Work } from './work.ts';
 
 /** What can lie on the flat metric, which the map carries. */
-export const TEXTURES = ['checkerboard', 'circles', 'ribbons', 'coordinates', 'picture'] as const;
+export const TEXTURES = ['checkerboard', 'circles', 'ribbons', 'coordinates', 'picture'] as const satisfies readonly SurfaceStyle[];
 
 /** Values by place of the map as colours: the distortion, that of angles, the factor of the area, and the distance to the true image. */
 export const MAP_HEATS = ['distortion', 'angles', 'areas', 'truth'] as const;
@@ -28,6 +29,13 @@ export const MAP_HEATS = ['distortion', 'angles', 'areas', 'truth'] as const;
 /** Values by vertex of either mesh as colours: the conformal factor of the flow, and the Gaussian curvature before it and after. */
 export const FLOW_HEATS = ['factor', 'curvature', 'flat-curvature'] as const;
 
+/**
+ * Plain clay; the colours of the mesh's file, which the map carries; a pattern in space, which the map carries to the source; colours of the
+ * place on the target: what the views draw but textures, and but the scales of heat maps.
+ */
+export type PlainSurface = Exclude<SurfaceStyle, Texture | 'rising' | 'diverging'>;
+
+export type Texture = (typeof TEXTURES)[number];
 export type MapHeat = (typeof MAP_HEATS)[number];
 export type FlowHeat = (typeof FLOW_HEATS)[number];
 export type HeatMap = MapHeat | FlowHeat;
@@ -52,8 +60,7 @@ export interface TexturePicture {
 }
 
 export interface Style {
-  /** Plain clay; the colours of the mesh's file, which the map carries; a pattern in space, which the map carries to the source; colours of the place on the target; a texture; a heat map. */
-  readonly surface: 'shaded' | 'look' | 'pattern' | 'colours' | (typeof TEXTURES)[number] | HeatMap;
+  readonly surface: PlainSurface | Texture | HeatMap;
   readonly texture: TexturePlace;
   readonly patchLines: boolean;
   /** Where the texture is cut that the map carries. */

@@ -11,6 +11,7 @@ import {
   SENTENCES,
   takenSentence,
 } from '../messages.ts';
+import type { RunOptions } from '../report.ts';
 import type { Event } from './events.ts';
 import type { State, Toast } from './state.ts';
 
@@ -32,14 +33,14 @@ function pickName(before: State, after: State): string {
   return numbers.length === 0 ? 'Place a point' : `${isBegun ? 'Begin' : 'Place'} ${called}`;
 }
 
-const OPTION_NAMES = {
+const OPTION_NAMES: Readonly<Record<keyof RunOptions, string>> = {
   method: 'method',
   base: 'base domain',
   cones: 'cone angles',
   class: 'class',
   ownCones: 'own cones',
   borders: 'rims of holes',
-} as const;
+};
 
 const NAMES: Names = {
   mesh: ({ file }) => `Open ${file.name}`,
@@ -71,7 +72,7 @@ const NAMES: Names = {
   'candidate-taken': ({ candidate }) => `Take answer ${candidate + 1} of the search`,
   'targets-exchanged': ({ ids }, before) => `Exchange the targets of ${ids.map((id) => called(before, id)).join(' and ')}`,
   options: ({ options }) => {
-    const [key] = Object.keys(options) as (keyof typeof OPTION_NAMES)[];
+    const [key] = Object.keys(options) as (keyof RunOptions)[];
     return `Change the ${key === undefined ? 'options' : OPTION_NAMES[key]}`;
   },
 };

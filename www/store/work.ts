@@ -1,7 +1,8 @@
 /** The work: everything that the user made and that undo gives back. */
 import type { Pair, Side } from '../landmarks.ts';
+import { USUAL_OPTIONS } from '../options.ts';
 import type { RunOptions } from '../report.ts';
-import type { LoadedMesh } from '../wasm/page.js';
+import type { LoadedMesh, LookKind, UpAxis } from '../wasm/page.js';
 
 /**
  * A mesh with the bytes it came from; the bytes go to the worker. One object for one opened file: two are the same mesh only
@@ -25,9 +26,6 @@ export interface MeshFile {
   readonly repairs: string;
 }
 
-/** None; places in a picture that is not there; colours, or pictures with places in them. */
-export type LookKind = 'none' | 'places' | 'colours';
-
 export interface Demo {
   readonly id: string;
   readonly title: string;
@@ -35,7 +33,7 @@ export interface Demo {
 }
 
 /** The direction of a mesh's file that is up on the screen. */
-export type Axis = 'x' | '-x' | 'y' | '-y' | 'z' | '-z';
+export type Axis = UpAxis;
 
 /** Whole works are kept by the history; those of neighbouring steps share what did not change. */
 export interface Work {
@@ -59,7 +57,7 @@ export const NO_WORK: Work = {
   pairs: [],
   named: [null, null],
   groundTruth: null,
-  options: { method: 'relaxed', base: 'joint', cones: 'base-domain', class: 'best', ownCones: null, borders: 'guess' },
+  options: USUAL_OPTIONS,
 };
 
 /** The work alone, of a state that has more. */

@@ -2,11 +2,8 @@
 import type { Side } from '../landmarks.ts';
 import { otherSide, SIDES } from '../landmarks.ts';
 import type { Axis, Camera } from '../store/state.ts';
-import type { MeshDefects, Viewer } from '../wasm/page.js';
+import type { LookFrom, MeshDefects, Viewer } from '../wasm/page.js';
 import type { Place } from './gestures.ts';
-
-/** A side to look from. */
-export type Direction = 'front' | 'back' | 'left' | 'right' | 'top' | 'bottom';
 
 /** How long a camera glides, in ms: long enough for the eye to follow, short enough not to wait for. */
 const GLIDE = 180;
@@ -81,7 +78,7 @@ export class Cameras {
   }
 
   /** Looks at the whole mesh from one of six sides. */
-  lookFrom(side: Side, from: Direction): void {
+  lookFrom(side: Side, from: LookFrom): void {
     this.#each(side, 'smoothly', (viewer, each) => {
       viewer.lookFrom(each, from);
     });

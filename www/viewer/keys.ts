@@ -1,6 +1,6 @@
 /** Keys of a view that has the focus. */
 import type { Side } from '../landmarks.ts';
-import type { Direction } from './cameras.ts';
+import type { LookFrom } from '../wasm/page.js';
 import type { Place } from './gestures.ts';
 
 /** What keys do; lengths in units of the view's height, y up. */
@@ -12,7 +12,7 @@ export interface KeyTarget {
   zoom(side: Side, factor: number, at: Place): void;
   fit(side: Side): void;
   reset(side: Side): void;
-  lookFrom(side: Side, from: Direction): void;
+  lookFrom(side: Side, from: LookFrom): void;
   /** Moves the selected pin, in CSS pixels, y up; whether there is one. */
   nudge(side: Side, dx: number, dy: number): boolean;
   /** Deletes the selected pair; whether there is one. */
@@ -50,7 +50,7 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowDown: [0, -1],
 };
 
-const DIRECTIONS: Readonly<Record<string, Direction>> = { F: 'front', B: 'back', L: 'left', R: 'right', T: 'top', U: 'bottom' };
+const DIRECTIONS: Readonly<Record<string, LookFrom>> = { F: 'front', B: 'back', L: 'left', R: 'right', T: 'top', U: 'bottom' };
 
 /** Does what a key asks for; whether it means anything here. */
 export function pressKey(target: KeyTarget, side: Side, event: KeyboardEvent): boolean {

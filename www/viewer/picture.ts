@@ -11,7 +11,7 @@ import type { BasePart } from '../method/parts.ts';
 import { litBy } from '../method/parts.ts';
 import type { ComparedMap, FlowHeat, MapHeat, Result, Style, TexturePicture } from '../store/state.ts';
 import { isFlowHeat, isMapHeat } from '../store/surfaces.ts';
-import type { Viewer } from '../wasm/page.js';
+import type { SurfaceStyle, Viewer } from '../wasm/page.js';
 import type { Known } from './probe.ts';
 
 /** The sides on which a style is drawn on the map's own triangles; the meshes themselves can show the others. */
@@ -38,7 +38,7 @@ const OVERLAYS: Readonly<Record<Style['surface'], readonly Side[]>> = {
 };
 
 /** What the renderer draws of a surface: the checkerboard in the place of a picture that is not there. */
-export function drawnSurface(surface: Style['surface'], picture: TexturePicture | null): string {
+export function drawnSurface(surface: Style['surface'], picture: TexturePicture | null): SurfaceStyle {
   if (isFlowHeat(surface)) {
     return 'shaded';
   }

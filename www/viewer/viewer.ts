@@ -19,9 +19,8 @@ import { hasItsCones, shownResult } from '../store/staleness.ts';
 import type { Axis, Camera, Proposal, Result, State } from '../store/state.ts';
 import type { MeshFile } from '../store/work.ts';
 import { giverOf } from '../store/work.ts';
-import type { MeshDefects } from '../wasm/page.js';
+import type { LookFrom, MeshDefects } from '../wasm/page.js';
 import { Viewer } from '../wasm/page.js';
-import type { Direction } from './cameras.ts';
 import { cameraOf, Cameras } from './cameras.ts';
 import type { Box } from './gestures.ts';
 import { Hands } from './hands.ts';
@@ -168,7 +167,7 @@ export class Views {
   }
 
   /** Looks at the whole mesh from one of six sides. */
-  lookFrom(side: Side | 'both', from: Direction): void {
+  lookFrom(side: Side | 'both', from: LookFrom): void {
     this.#command(side, (each) => {
       this.#cameras.lookFrom(each, from);
     });

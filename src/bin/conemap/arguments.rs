@@ -5,11 +5,13 @@ use conemap::cone_metric::Scheme;
 use conemap::export::MeshFormat;
 use conemap::io::Format;
 use conemap::io::landmark_formats::LandmarkFormat;
-use conemap::job::MeshFaults;
+use conemap::job::{LEAST_MEMORY, MEMORY_PER_FACE, MeshFaults};
+use conemap::landmark_suggestion::USUAL_COUNT;
 use conemap::landmarks::MeshSide;
 use conemap::mesh::repair::{Handles, Parts, RepairOptions};
 use conemap::pipeline::Choices;
-use conemap::transfer::{Carrying, Raster};
+use conemap::remesh::USUAL_CREASE_ANGLE;
+use conemap::transfer::{Carrying, Raster, USUAL_GIVER};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -85,7 +87,7 @@ pub struct RepairArguments {
     #[arg(long)]
     pub cut_handles: bool,
     /// Join vertices on open edges that are within this distance, in the file's units; otherwise only those at the same place.
-    #[arg(long, value_name = "DISTANCE", default_value_t = 0.0, value_parser = distance)]
+    #[arg(long, value_name = "DISTANCE", default_value_t = RepairOptions::default().join_within, value_parser = distance)]
     pub join_within: f64,
 }
 
@@ -149,8 +151,8 @@ pub struct MapArguments {
     /// --time-limit.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub deadline: Option<Duration>,
-    /// Refuse meshes whose map may take more memory than that: 100 MiB and 10 KiB for each triangle of both meshes.
-    #[arg(long, value_name = "MIB")]
+    /// Refuse meshes whose map may take more memory than that.
+    #[arg(long, value_name = "MIB", help = memory_help())]
     pub memory_limit: Option<u32>,
     /// Use the mirror image of the target: for landmarks whose left and right are exchanged.
     #[arg(long)]
@@ -332,7 +334,7 @@ pub struct TransferArguments {
     #[arg(long, group = "what", conflicts_with = "from")]
     pub morph: bool,
     /// The mesh that gives.
-    #[arg(long, value_enum, default_value_t = MeshSide::Target)]
+    #[arg(long, value_enum, default_value_t = USUAL_GIVER)]
     pub from: MeshSide,
     /// How values are made.
     #[arg(long, value_enum, default_value_t, requires = "attributes")]
@@ -361,7 +363,7 @@ pub struct SuggestArguments {
     #[arg(help = mesh_help("Mesh"))]
     pub mesh: PathBuf,
     /// How many at most.
-    #[arg(long, default_value_t = 12)]
+    #[arg(long, default_value_t = USUAL_COUNT)]
     pub count: usize,
     /// Vertices (0-based) that are landmarks already: the suggestions keep away from them.
     #[arg(long, value_name = "VERTEX", value_delimiter = ',')]
@@ -404,6 +406,14 @@ pub struct LandmarksArguments {
     /// What becomes of meshes with faults.
     #[command(flatten)]
     pub faults: FaultArguments,
+}
+
+/// The memory that a map may take.
+fn memory_help() -> String {
+    let [least, per_face] = [LEAST_MEMORY >> 20, MEMORY_PER_FACE >> 10];
+    format!(
+        "Refuse meshes whose map may take more memory than that: {least} MiB and {per_face} KiB for each triangle of both meshes"
+    )
 }
 
 /// The formats of landmark files.
@@ -470,7 +480,7 @@ pub struct RemeshArguments {
     #[arg(long, value_name = "N")]
     pub faces: usize,
     /// Edges whose faces' normals differ by more than this stay sharp; 180 for none.
-    #[arg(long, value_name = "DEGREES", default_value_t = 45.0, value_parser = degrees)]
+    #[arg(long, value_name = "DEGREES", default_value_t = USUAL_CREASE_ANGLE.to_degrees(), value_parser = degrees)]
     pub crease_angle: f64,
     /// File for the new mesh.
     #[arg(long, help = written_help("File for the new mesh"))]

@@ -1,9 +1,10 @@
 //! What a repair may do.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// What a repair may do. A name or a value that is not known is an error.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
 pub struct RepairOptions {
     /// The distance within which vertices on open edges are joined, in the file's units; 0 for exactly equal places.
@@ -23,7 +24,8 @@ impl RepairOptions {
 }
 
 /// What becomes of handles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum Handles {
     /// A surface that has handles is refused: to cut them changes its shape.
@@ -34,7 +36,8 @@ pub enum Handles {
 }
 
 /// Which parts may stay and go.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum Parts {
     /// The largest part by area stays; the others go where they have less than 1 % of the area together.

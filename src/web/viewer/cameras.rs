@@ -5,7 +5,7 @@ use super::super::{failure, mesh_side};
 use super::canvas::Viewer;
 use super::reading::{named, parsed};
 use crate::io::landmark_file::LandmarkPoint;
-use crate::scene::camera::From as LookFrom;
+use crate::scene::camera::LookFrom;
 use crate::scene::upright::proposed_up;
 use crate::scene::{Camera, Glide, UpAxis};
 use glam::Vec2;

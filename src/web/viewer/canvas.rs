@@ -29,7 +29,6 @@ pub(super) struct Style {
     /// Share of the source's view, from the left, in which the source is plain.
     #[serde(default)]
     pub(super) wipe: Option<f32>,
-    #[serde(default)]
     pub(super) texture: TexturePlace,
     /// Whether parts of the surfaces may be unmapped: the plain meshes are drawn behind.
     #[serde(default)]
@@ -40,7 +39,7 @@ pub(super) struct Style {
 }
 
 /// What the surfaces' colours tell.
-#[derive(Clone, Copy, Default, Deserialize, PartialEq)]
+#[derive(Clone, Copy, Default, Deserialize, PartialEq, tsify::Tsify)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum SurfaceStyle {
     #[default]
@@ -60,7 +59,7 @@ pub(super) enum SurfaceStyle {
 }
 
 /// How a texture lies on the flat metric.
-#[derive(Clone, Copy, Deserialize)]
+#[derive(Clone, Copy, Default, Deserialize)]
 pub(super) struct TexturePlace {
     /// Cells to a unit of texture coordinates.
     cells: f32,
@@ -69,12 +68,6 @@ pub(super) struct TexturePlace {
     /// Shifts in cells.
     x: f32,
     y: f32,
-}
-
-impl Default for TexturePlace {
-    fn default() -> Self {
-        Self { cells: 36.0, turn: 0.0, x: 0.0, y: 0.0 }
-    }
 }
 
 impl TexturePlace {

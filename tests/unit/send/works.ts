@@ -1,15 +1,17 @@
 /** Works to send: small ones by hand, and any kind at random. */
 import type { SurfacePoint } from '../../../www/landmarks.ts';
 import { rounded } from '../../../www/landmarks.ts';
+import { BASES, BORDERS, CLASSES, CONES, METHODS } from '../../../www/options.ts';
 import type { Link, LinkedFile } from '../../../www/send/link.ts';
 import type { SentPair, SentWork } from '../../../www/send/schema.ts';
 import { INITIAL } from '../../../www/store/state.ts';
 import type { Axis } from '../../../www/store/work.ts';
+import { wordsOf } from '../../../www/unions.ts';
 import type { Random } from '../random.ts';
 
 export const BASE = new URL('https://maps.example/conemap/');
 
-const AXES: readonly Axis[] = ['x', '-x', 'y', '-y', 'z', '-z'];
+const AXES = wordsOf<Axis>({ x: true, '-x': true, y: true, '-y': true, z: true, '-z': true });
 
 /** Weights of a place in a face, with a sum of 1 up to rounding. */
 function weights(random: Random): [number, number, number] {
@@ -62,12 +64,12 @@ export function anyWork(random: Random): SentWork {
     up: [random.of(AXES), random.of(AXES)],
     groundTruth: random.of([null, 'same connectivity: vertex i corresponds to vertex i']),
     options: {
-      method: random.of(['relaxed', 'thesis', 'tutte']),
-      base: random.of(['joint', 'qem']),
-      cones: random.of(['base-domain', 'uniform']),
-      class: random.of(['best', 'runner-up']),
+      method: random.of(wordsOf(METHODS)),
+      base: random.of(wordsOf(BASES)),
+      cones: random.of(wordsOf(CONES)),
+      class: random.of(wordsOf(CLASSES)),
       ownCones: random.of([null, 0, 20]),
-      borders: random.of(['guess', 'corresponding', 'missing']),
+      borders: random.of(wordsOf(BORDERS)),
     },
     cameras: [random.of([null, camera(random)]), random.of([null, camera(random)])],
     style: {
