@@ -91,6 +91,7 @@ fn renumbered(mesh: &SurfaceMesh) -> SurfaceMesh {
 }
 
 #[test]
+#[ignore = "long: run by `cargo xtask test --all`"]
 fn with_one_landmark_every_limb_of_the_horse_finds_its_partner_on_the_cat() {
     let demo = demo::build("horse-cat").unwrap();
     let given = [demo.landmarks[0].map(VertexId)];

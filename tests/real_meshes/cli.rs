@@ -10,7 +10,8 @@ use std::path::Path;
 
 tests![
     suggestions_end_on_all_meshes,
-    maps_a_real_pair,
+    maps_a_real_pair;
+    long:
     a_flow_that_does_not_converge_fails_and_still_reports,
 ];
 
