@@ -1,8 +1,8 @@
-//! Holds the paths of the source against the table of allowed imports in `ARCHITECTURE.md`, and finds circles between files.
+//! Checks the paths of the source against the table of allowed imports in `ARCHITECTURE.md`, and finds circles of imports between files.
 //!
-//! Paths are read from words and signs, without comments, strings and what is compiled for tests only. A path is followed
-//! through re-exports to the file that defines the name: a `mod.rs` that only declares and re-exports depends on nothing, and
-//! nothing depends on it.
+//! Paths are read from words and signs, without comments, strings and items that are compiled for tests only. A path is followed through
+//! re-exports to the file that defines the name: a `mod.rs` that only declares and re-exports depends on nothing, and nothing depends on
+//! it.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
@@ -77,7 +77,7 @@ fn tokens(text: &str) -> Vec<String> {
     found
 }
 
-/// Length of a literal between quotes.
+/// The length of a literal with its quotes, in bytes.
 fn quoted(text: &str, quote: char) -> usize {
     let mut is_escaped = false;
     for (at, c) in text.char_indices().skip(1) {
@@ -91,7 +91,7 @@ fn quoted(text: &str, quote: char) -> usize {
     text.len()
 }
 
-/// The same without items for tests: tests may use everything.
+/// The tokens without those of items for tests, since tests may use everything.
 fn without_tests(tokens: &[String]) -> Vec<String> {
     const MARK: [&str; 7] = ["#", "[", "cfg", "(", "test", ")", "]"];
     let mut kept = Vec::new();
@@ -127,7 +127,7 @@ struct Import {
     is_public: bool,
 }
 
-/// What a source file says.
+/// The imports, paths and words of a source file.
 struct Source {
     file: String,
     imports: Vec<Import>,
@@ -171,7 +171,7 @@ impl Source {
         source
     }
 
-    /// Reads one tree of an import from `at` on; the place of the sign after it.
+    /// Reads one tree of an import from the token `at` on, and returns the number of the token after it.
     fn read_import(&mut self, tokens: &[String], mut at: usize, prefix: &[String], is_public: bool) -> usize {
         let mut path = prefix.to_vec();
         loop {
@@ -237,7 +237,7 @@ impl House {
         Self { sources: sources.collect() }
     }
 
-    /// A path of a module's file from its crate on; `None` outside of this project.
+    /// A path in the file of a module, completed from its crate on; `None` for paths outside of this project.
     fn absolute(&self, module: &[String], path: &[String]) -> Option<Vec<String>> {
         self.absolute_within(module, path, 8)
     }
@@ -285,11 +285,11 @@ impl House {
         Some((module.to_vec(), true))
     }
 
-    /// What each file depends on: the files that define the names that it uses.
+    /// The dependencies of each file: the files that define the names that it uses.
     fn dependencies(&self) -> BTreeMap<&str, BTreeSet<&str>> {
         let mut all = BTreeMap::new();
         for (module, source) in &self.sources {
-            // A name that is only handed on is no dependency.
+            // A name that is only re-exported is no dependency.
             let used = |import: &&Import| !import.is_public || source.words.contains(&import.name);
             let imports = source.imports.iter().filter(used).map(|import| &import.path);
             let paths = imports.chain(&source.paths).filter_map(|path| self.absolute(module, path));

@@ -44,7 +44,7 @@ pub fn judge(candidate: &Candidate, monitor: &mut dyn Monitor) -> Result<Option<
     mean_log(&candidate.layout, monitor)
 }
 
-/// A mesh coarsened with its landmarks, and their numbers there.
+/// Coarsens a mesh and keeps its landmarks; returns the level and the numbers of the landmarks on it.
 pub fn coarse(mesh: &SurfaceMesh, landmarks: &[VertexId], goal: usize) -> (Level, Vec<VertexId>) {
     let level = Level::coarse(mesh, landmarks, goal, &mut Silent).expect("nobody stops");
     let number =
@@ -53,7 +53,7 @@ pub fn coarse(mesh: &SurfaceMesh, landmarks: &[VertexId], goal: usize) -> (Level
     (level, numbers)
 }
 
-/// Two meshes of one connectivity on one coarse connectivity: vertex i corresponds to vertex i.
+/// Coarsens two meshes of the same connectivity to one coarse connectivity, on which vertex i corresponds to vertex i.
 fn coarse_with_known_map(case: &Case, goal: usize) -> ([SurfaceMesh; 2], Landmarks) {
     let Case { name, source, target, landmarks, .. } = case;
     assert_eq!(landmarks.source, landmarks.target, "{name} has a known map");
@@ -69,7 +69,7 @@ fn identity(layout: &BaseLayout) -> BaseLayout {
     BaseLayout { target: layout.source.clone(), ..layout.clone() }
 }
 
-/// The search ends in the class of the known map, on levels as coarse as those of a run with 33 landmarks.
+/// Checks that the search ends in the class of the known map, on levels as coarse as those of a run with 33 landmarks.
 pub fn known_class_is_found(case: &Case) {
     let ([source, target], landmarks) = coarse_with_known_map(case, 600);
     let mut candidates = Candidates::new([&source, &target], &landmarks, &mut Silent).expect("few landmarks");

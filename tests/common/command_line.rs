@@ -1,4 +1,4 @@
-//! The command line, run as a program.
+//! Runs of the command line as a program of its own.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use crate::common;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-/// An empty folder of this test's own.
+/// Makes an empty folder for one test.
 pub fn folder(test: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
     if folder.exists() {
@@ -88,11 +88,12 @@ pub fn map_and_check([source, target, pairs]: [&Path; 3], folder: &Path) {
     assert!(findings.iter().all(|f| f["kind"] == "unmarked_limbs"), "{findings:?}");
     let faces = |side: &str| report["faces"][side].as_u64().unwrap();
     let checked = report["certificate"]["triangles"].as_u64().unwrap();
-    // More where points of the program's own were inserted.
+    // There are more triangles where the program inserted own cones.
     assert!(checked >= faces("source") + faces("target"), "{checked}");
 }
 
-/// No density and no angle distortion below 1, no turned triangle; at least as many triangles as were welded from the GLB.
+/// Checks the files of distortion: no density and no angle distortion is below 1, no triangle is turned, and there are at least as many
+/// triangles as were welded from the GLB.
 fn check_distortion(out: &Path, [vertices, triangles]: [usize; 2]) {
     let rows = |name: &str| -> Vec<Vec<f64>> {
         let text = std::fs::read_to_string(out.join(name)).unwrap();
@@ -109,7 +110,7 @@ fn check_distortion(out: &Path, [vertices, triangles]: [usize; 2]) {
     assert!(by_vertex.iter().all(|row| row[1] > 1.0 - 1e-12));
 }
 
-/// The program's output, within a minute of wall time.
+/// Runs the program and returns its output; fails after a minute of wall time.
 pub fn conemap_in_a_minute<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_conemap"));
     let mut child = command.args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
@@ -124,7 +125,8 @@ pub fn conemap_in_a_minute<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = 
     child.wait_with_output().unwrap()
 }
 
-/// On the fixed triangulation of this mesh the flow fails, by its exit code, in a sentence and in its report; with flips it converges.
+/// Checks that the flow on the fixed triangulation of a mesh fails, with an exit code, a sentence and a report that say so, and that it
+/// converges with flips.
 pub fn a_failed_flow_reports(mesh: &Path, vertices: &[VertexId], folder: &Path) {
     let (list, report_file) = (folder.join("cones.txt"), folder.join("report.json"));
     std::fs::write(&list, cones(vertices)).unwrap();

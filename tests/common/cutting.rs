@@ -13,7 +13,7 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
 
-/// A plane; what lies on the side of its normal is beyond it.
+/// A plane; points on the side of its normal are beyond it.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane {
     pub point: DVec3,
@@ -21,8 +21,8 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The plane through the first vertex and the middle of the others that is as perpendicular as possible to the direction from there to the
-    /// end; with only one vertex, the plane through it that is perpendicular to that direction.
+    /// The plane through the first vertex and the middle of the others that is as perpendicular as possible to the direction from these to
+    /// the end; with only one vertex, the plane through it that is perpendicular to that direction.
     pub fn across(mesh: &SurfaceMesh, through: &[u32], end: u32) -> Self {
         let place = |v: u32| mesh.positions()[VertexId(v)];
         let first = place(through[0]);
@@ -36,11 +36,11 @@ impl Plane {
         Self { point, normal: (way - along * way.dot(along)).normalize() }
     }
 
-    /// The plane nearest to some points by least squares, its normal on the side of `end`.
+    /// The plane nearest to some points by least squares; its normal points to the side of `end`.
     pub fn nearest(points: &[DVec3], end: DVec3) -> Self {
         let point = points.iter().sum::<DVec3>() / points.len() as f64;
         let mut normal = DVec3::ZERO;
-        // The normal is the direction of least spread among directions all around.
+        // The normal is the direction in which the points have the least spread, among 20,000 directions all around.
         let mut least = f64::INFINITY;
         for k in 0..20_000 {
             let z = 1.0 - (k as f64 + 0.5) / 10_000.0;
@@ -62,9 +62,9 @@ impl Plane {
 
 /// The parts of a mesh that are cut off: for each cut the connected part beyond its plane that holds its end.
 pub struct Cuts {
-    /// The cut that each vertex is beyond.
+    /// The cut that each vertex is beyond; `None` for vertices that stay with the body.
     beyond: TiVec<VertexId, Option<usize>>,
-    /// For each edge that is cut the share of the way from its smaller vertex to the cut.
+    /// For each edge that is cut, the place of the cut: the share of the edge from the end with the smaller number.
     shares: BTreeMap<[VertexId; 2], f64>,
 }
 
@@ -132,12 +132,12 @@ impl Cuts {
         self.beyond[v].is_some()
     }
 
-    /// Whether any corner of a face is beyond.
+    /// Whether any corner of a face is beyond a cut.
     pub fn touches(&self, mesh: &SurfaceMesh, f: FaceId) -> bool {
         mesh.triangles()[f].iter().any(|&v| self.is_beyond(v))
     }
 
-    /// Cuts a mesh with the connectivity of the one that the cuts were made for, each edge of a rim in `parts`.
+    /// Cuts a mesh with the connectivity of the one that the cuts were made for, and divides each edge of a rim into `parts`.
     pub fn cut(&self, mesh: &SurfaceMesh, kept: Kept, parts: u32) -> CutMesh {
         let mut positions: Vec<DVec3> = mesh.positions().iter().copied().collect();
         let mut numbers = BTreeMap::new();
@@ -205,7 +205,7 @@ impl CutMesh {
         vertices
     }
 
-    /// Distance of a point to the nearest place of the rims.
+    /// The distance of a point from the nearest place of the rims.
     pub fn distance_to_rim(&self, p: DVec3) -> f64 {
         let to_edge = |ends: &[u32; 2]| {
             let [a, b] = ends.map(|v| self.soup.positions[v as usize]);
@@ -222,14 +222,14 @@ impl Open {
         Self { checked: repaired.expect("a cut mesh can be capped").checked, cut }
     }
 
-    /// The vertex of the capped mesh that a vertex of the cut one is.
+    /// The vertex of the capped mesh that corresponds to a vertex of the cut mesh.
     pub fn vertex(&self, v: u32) -> VertexId {
         self.checked.vertex_from_file[v as usize].expect("the vertex was not cut off")
     }
 }
 
 /// The distance of the rims' images from the other mesh's rims, in units of the root of that mesh's area: the mean along the rims and the
-/// largest, each of the direction in which it is larger.
+/// largest value, each for the direction of the map in which it is larger.
 pub fn rim_distances(sides: &[Open; 2], result: &MapResult) -> [f64; 2] {
     let map = result.correspondence.as_ref().expect("a map of two meshes has pieces");
     let meshes: [&SurfaceMesh; 2] = [&sides[0].checked.mesh, &sides[1].checked.mesh];

@@ -1,4 +1,4 @@
-//! Bounds of geodesic distances that hold whatever the triangles are.
+//! Bounds of geodesic distances that hold for triangles of any shape.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use conemap::geodesic::distances;
@@ -6,7 +6,7 @@ use conemap::mesh::{SurfaceMesh, VertexId};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Shortest ways along edges.
+/// The lengths of the shortest paths along edges from the seeds to all vertices.
 pub fn along_edges(mesh: &SurfaceMesh, seeds: &[VertexId]) -> Vec<f64> {
     let mut distance = vec![f64::INFINITY; mesh.vertex_count()];
     let mut queue: BinaryHeap<(Reverse<u64>, VertexId)> = BinaryHeap::new();
@@ -30,7 +30,8 @@ pub fn along_edges(mesh: &SurfaceMesh, seeds: &[VertexId]) -> Vec<f64> {
     distance
 }
 
-/// No longer than along edges, hardly shorter than straight through space.
+/// Checks that no distance is longer than the shortest path along edges, and none shorter than the straight line through space, but for a
+/// small error.
 pub fn check_bounds(mesh: &SurfaceMesh, seed: VertexId, name: &str) {
     let (found, most) = (distances(mesh, &[seed]), along_edges(mesh, &[seed]));
     for v in mesh.vertices() {

@@ -1,4 +1,4 @@
-//! Whether landmarks fit each other, judged on coarse meshes.
+//! Checks of the findings about landmarks that do not fit each other, on coarse meshes.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use crate::theorems;
@@ -45,14 +45,14 @@ fn coarse(mesh: &SurfaceMesh, held: &[VertexId]) -> (SurfaceMesh, Vec<VertexId>)
     (level.mesh, numbers)
 }
 
-/// The mirror image.
+/// The mirror image of a mesh, with its faces turned so that they look outwards again.
 pub fn mirrored(mesh: &SurfaceMesh) -> SurfaceMesh {
     let positions = mesh.positions().iter().map(|p| DVec3::new(-p.x, p.y, p.z)).collect();
     let faces = mesh.triangles().iter().map(|&[a, b, c]| [a, c, b]).collect();
     SurfaceMesh::from_triangles(positions, faces).expect("the same connectivity")
 }
 
-/// The pairs that are to be exchanged.
+/// The pairs of landmarks whose targets the findings propose to exchange.
 pub fn swaps(findings: &[Finding]) -> Vec<[usize; 2]> {
     let swap = |finding: &Finding| match finding.repair() {
         Repair::Swap { pairs } => Some(pairs.map(LandmarkId::index)),
@@ -61,7 +61,7 @@ pub fn swaps(findings: &[Finding]) -> Vec<[usize; 2]> {
     findings.iter().filter_map(swap).collect()
 }
 
-/// Landmarks that fit raise no alarm; those of the target's mirror image do, and it is the one of a mirror.
+/// Checks that landmarks that fit raise no alarm, and that those of the target's mirror image raise the alarm that the set is mirrored.
 pub fn only_the_mirror_image_raises_an_alarm(case: Case) {
     let findings = case.findings(&case.landmarks);
     assert!(findings.is_empty(), "{}: {findings:?}", case.name);
@@ -75,7 +75,7 @@ pub fn only_the_mirror_image_raises_an_alarm(case: Case) {
     assert!(agreement.is_some_and(|a| a < -0.5), "{}: {agreement:?}", reflected.name);
 }
 
-/// Of some exchanged targets that lie apart nine in ten are named, and no others.
+/// Checks that of some exchanged targets that lie apart nine in ten are named, and no other pairs.
 pub fn exchanged_targets_are_named(case: &Case) {
     let (name, n) = (&case.name, case.landmarks.len());
     let distances = LandmarkDistances::new([&case.source, &case.target], &case.landmarks, &mut Silent)

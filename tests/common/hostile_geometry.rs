@@ -1,5 +1,5 @@
-//! Pairs of meshes and landmarks that are hard on numbers, by kind and seed: slivers, needles, pancakes, noise, hubs, meshes of very
-//! different sizes; landmarks adjacent, dense, permuted, mirrored, on one limb, beside edges.
+//! Pairs of meshes and landmarks that strain the numerics, by kind and seed: slivers, needles, pancakes, noise, hubs, meshes of very
+//! different sizes; landmarks that are adjacent, dense, permuted, mirrored, on one limb, or beside edges.
 //!
 //! Every shape is a ball whose vertices were moved, so that directions from its middle tell which places correspond.
 #![allow(dead_code, reason = "every test binary uses another part")]
@@ -12,36 +12,37 @@ use conemap::mesh::{SurfaceMesh, VertexId};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// What is hard about a case.
+/// The kind of difficulty of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
-    /// Points put into faces beside a side, down to angles of 1e-6 degrees.
+    /// Points are inserted into faces beside a side, down to angles of 1e-6 degrees.
     Slivers,
-    /// A ball stretched up to 1:1000, or one vertex pulled out as far.
+    /// A ball is stretched up to 1:1000, or one of its vertices is pulled out as far.
     Needles,
     /// Bodies as flat as 1e-9 of their width.
     Pancakes,
-    /// Vertices moved by up to five edge lengths.
+    /// Vertices are moved by up to five edge lengths.
     Noise,
     /// A vertex with up to 1,000 neighbours.
     Hubs,
-    /// Edges turned, points put in and put in again, down to what rounding takes for one point, coordinates of 1e-60 and 1e60.
+    /// Edges are flipped, points are inserted again and again, until rounding takes some for one point, and coordinates are of size 1e-60
+    /// or 1e60.
     Rough,
-    /// One mesh of up to 328,000 faces with another one of down to 20.
+    /// One mesh has up to 328,000 faces, and the other one as few as 20.
     Unequal,
     /// A vertex and its neighbours are landmarks.
     Adjacent,
     /// Every vertex, or every other one, is a landmark.
     Dense,
-    /// The targets of some or of all pairs exchanged.
+    /// The targets of some or of all pairs are exchanged.
     Permuted,
-    /// Left and right exchanged in all targets.
+    /// Left and right are exchanged in all targets.
     Mirrored,
-    /// All landmarks on one limb.
+    /// All landmarks lie on one limb.
     OneLimb,
-    /// Landmarks in faces, 1e-6 to 1e-16 of the face from an edge or a corner.
+    /// Landmarks lie in faces, at 1e-6 to 1e-16 of the size of the face from an edge or a corner.
     BesideEdges,
-    /// A hard shape, another one, and hard landmarks.
+    /// Both shapes and the landmarks are hard, each in a way of its own.
     Mixed,
 }
 
@@ -64,7 +65,7 @@ impl Kind {
         Self::Mixed,
     ];
 
-    /// Its name in tables and on the command line.
+    /// The name of the kind in tables and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Slivers => "slivers",
@@ -84,18 +85,18 @@ impl Kind {
         }
     }
 
-    /// The kind of a name.
+    /// The kind with a name; `None` for unknown names.
     pub fn of(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 }
 
-/// How large the meshes may be.
+/// The size of the meshes of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
-    /// Some hundred faces: a map takes tenths of a second.
+    /// The meshes have some hundred faces, and a map takes tenths of a second.
     Small,
-    /// Up to 20,000 faces, and rarely 328,000.
+    /// The meshes have up to 20,000 faces, and rarely 328,000.
     Any,
 }
 
@@ -105,7 +106,7 @@ pub struct HostileCase {
     pub pairs: Vec<[LandmarkPoint; 2]>,
 }
 
-/// The case of a kind and a seed, always the same.
+/// The case of a kind and a seed; the same seed gives the same case.
 pub fn case(kind: Kind, seed: u64, size: Size) -> HostileCase {
     let mut random = Random::new(seed.wrapping_mul(0x1_0000_01b3) ^ kind as u64);
     let random = &mut random;
@@ -135,25 +136,25 @@ struct Body {
 }
 
 impl Body {
-    /// A ball by its triangulation.
+    /// The body of a triangulated ball.
     fn ball(mesh: SurfaceMesh) -> Self {
         let directions: Vec<DVec3> = mesh.positions().iter().map(|p| p.normalize()).collect();
         Self { mesh, directions }
     }
 
-    /// The same with its vertices moved.
+    /// The body with its vertices moved; the directions stay.
     fn moved(self, place: impl FnMut(&DVec3) -> DVec3) -> Self {
         let positions = self.mesh.positions().iter().map(place).collect();
         Self { mesh: self.mesh.with_positions(positions), directions: self.directions }
     }
 
-    /// The mesh bent a little, differently for each seed.
+    /// The body bent a little, at random.
     fn bent(self, random: &mut Random) -> Self {
         let [a, b, c] = [0; 3].map(|_| 0.3 * random.unit());
         self.moved(|p| DVec3::new((1.0 + a) * p.x, p.y + b * p.x * p.x / (1.0 + p.x.abs()), p.z * (1.0 + c)))
     }
 
-    /// The vertex in a direction, of those that are free.
+    /// The vertex nearest to a direction, among those that are not taken.
     fn vertex_at(&self, direction: DVec3, taken: &[u32]) -> Option<u32> {
         let free = (0..self.directions.len() as u32).filter(|v| !taken.contains(v));
         let along = |v: &u32| self.directions[*v as usize].dot(direction);
@@ -198,7 +199,7 @@ fn bodies(kind: Kind, size: Size, random: &mut Random) -> [Body; 2] {
     }
 }
 
-/// A ball and the same triangles bent, or the same ball twice.
+/// A ball and either the same ball or a bent copy with the same triangles.
 fn same_ball(levels: usize, random: &mut Random) -> [Body; 2] {
     let ball = || Body::ball(icosphere(levels));
     [ball(), if random.unit() < 0.5 { ball() } else { ball().bent(random) }]
@@ -222,12 +223,12 @@ fn hard(kind: Kind, levels: usize, size: Size, random: &mut Random) -> Body {
     }
 }
 
-/// A point of the cube of side 2.
+/// A random point of the cube of side 2 around the origin.
 fn anywhere(random: &mut Random) -> DVec3 {
     DVec3::from_array([0; 3].map(|_| 2.0 * random.unit() - 1.0))
 }
 
-/// A ball with a point put into some of its faces, as near to a side as angles of 1e-6 degrees are.
+/// A ball with a point inserted into some of its faces, so near to a side that angles are as small as 1e-6 degrees.
 fn slivers(levels: usize, random: &mut Random) -> Body {
     let ball = icosphere(levels);
     let mut places: Vec<DVec3> = ball.positions().iter().copied().collect();
@@ -260,7 +261,7 @@ fn needle(levels: usize, random: &mut Random) -> Body {
     ball.moved(|p| if *p == end { length * *p } else { *p })
 }
 
-/// Edges turned, points put in, and at any scale.
+/// A ball with flipped edges and inserted points, at any scale.
 fn rough(levels: usize, random: &mut Random) -> Body {
     let mut mesh = icosphere(levels.min(3));
     for _ in 0..mesh.vertex_count().min(400) {
@@ -274,7 +275,7 @@ fn rough(levels: usize, random: &mut Random) -> Body {
     Body::ball(mesh).moved(|p| scale * (*p + noise * anywhere(random)))
 }
 
-/// Two vertices with up to 1,000 neighbours each, and one to three rings between them.
+/// A body of two vertices with up to 1,000 neighbours each, and one to three rings of vertices between them.
 fn hub(size: Size, random: &mut Random) -> Body {
     let (around, rings) = match size {
         Size::Small => (400, 1),
@@ -313,7 +314,7 @@ fn spread(bodies: &[Body; 2], count: usize, image: impl Fn(DVec3) -> DVec3) -> V
         let last = source.directions[next];
         nearest.iter_mut().zip(&source.directions).for_each(|(d, p)| *d = d.min(p.distance(last)));
         next = (0..nearest.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b])).expect("vertices");
-        // Where several vertices lie in one direction.
+        // Several vertices may lie in one direction; then the search ends.
         if chosen.contains(&next) {
             break;
         }
@@ -326,7 +327,7 @@ fn spread(bodies: &[Body; 2], count: usize, image: impl Fn(DVec3) -> DVec3) -> V
     chosen.iter().zip(&taken).map(vertices).collect()
 }
 
-/// The targets of all pairs in another order, or of some exchanged.
+/// The pairs with all of their targets in random order, or with those of a few exchanged.
 fn permuted(mut pairs: Vec<[LandmarkPoint; 2]>, random: &mut Random) -> Vec<[LandmarkPoint; 2]> {
     let exchanges = if random.unit() < 0.5 { pairs.len() } else { 1 + random.below(2) };
     for k in 0..exchanges.min(pairs.len()) {
@@ -338,7 +339,8 @@ fn permuted(mut pairs: Vec<[LandmarkPoint; 2]>, random: &mut Random) -> Vec<[Lan
     pairs
 }
 
-/// A vertex, its neighbours, sometimes theirs, and sometimes three far away; both meshes have the same triangles.
+/// Pairs of a vertex, its neighbours, sometimes their neighbours, and sometimes three vertices far away; both meshes have the same
+/// triangles.
 fn adjacent(bodies: &[Body; 2], random: &mut Random) -> Vec<[LandmarkPoint; 2]> {
     let mesh = &bodies[0].mesh;
     let mut vertices = vec![random.below(mesh.vertex_count()) as u32];
@@ -358,13 +360,13 @@ fn adjacent(bodies: &[Body; 2], random: &mut Random) -> Vec<[LandmarkPoint; 2]> 
     vertices.into_iter().map(|v| [LandmarkPoint::Vertex(v); 2]).collect()
 }
 
-/// Every vertex, or every second or third one; both meshes have the same triangles.
+/// Pairs of every vertex, or of every second or third one; both meshes have the same triangles.
 fn dense(bodies: &[Body; 2], random: &mut Random) -> Vec<[LandmarkPoint; 2]> {
     let count = bodies[0].directions.len() as u32;
     (0..count).step_by(1 + random.below(3)).map(|v| [LandmarkPoint::Vertex(v); 2]).collect()
 }
 
-/// Vertices of one limb only.
+/// Pairs of vertices of one limb only.
 fn on_one_limb(bodies: &[Body; 2], random: &mut Random) -> Vec<[LandmarkPoint; 2]> {
     let axis = LIMBS[random.below(LIMBS.len())];
     let mut taken: [Vec<u32>; 2] = Default::default();
@@ -382,7 +384,7 @@ fn on_one_limb(bodies: &[Body; 2], random: &mut Random) -> Vec<[LandmarkPoint; 2
         .collect()
 }
 
-/// The vertices of [`spread`], each moved into a face beside it: to a corner, an edge, or neither.
+/// The pairs of [`spread`], each point moved into a face beside its vertex: near a corner, near an edge, or near neither.
 fn beside_edges(bodies: &[Body; 2], random: &mut Random) -> Vec<[LandmarkPoint; 2]> {
     let mut pairs = spread(bodies, 4 + random.below(12), |d| d);
     for pair in &mut pairs {
@@ -400,7 +402,7 @@ fn beside(mesh: &SurfaceMesh, point: LandmarkPoint, random: &mut Random) -> Land
     let own = corners.iter().position(|w| w.0 == v).unwrap_or(0);
     let near = pow(10.0, -6.0 - 10.0 * random.unit());
     let along = 0.5 * random.unit();
-    // By corner from its own one on.
+    // The weights are by corner, beginning with the vertex itself.
     let weights = match random.below(3) {
         0 => [1.0 - 2.0 * near, near, near],
         1 => [1.0 - along - near, along, near],

@@ -1,4 +1,4 @@
-//! A whole job, from files to files, and the verdict of `conemap_verify` on its map.
+//! Runs a whole job, from files to files, and asks `conemap_verify` for its verdict on the map.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use crate::hostile_geometry::HostileCase;
@@ -27,20 +27,20 @@ impl From<HostileCase> for Files {
     }
 }
 
-/// What became of a job.
+/// The outcome of a job.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// A certified map that `conemap_verify` proves.
     Proved,
-    /// A certified map that `conemap_verify` proves but for so many triangles without area, within rounding.
+    /// A certified map that `conemap_verify` proves except for this number of triangles, which have no area within rounding.
     ProvedWithinRounding { triangles: usize },
     /// A certified map of meshes that were repaired, or without an overlay: it has no map file to be proved.
     Certified { without_file: &'static str },
-    /// An error with its variants' names and its sentence.
+    /// An error, by the names of its nested variants and its sentence.
     Refused { name: String, sentence: String },
     /// The job was stopped by its monitor.
     Stopped,
-    /// Something that must never happen, in a sentence.
+    /// A fault of the program, in a sentence.
     Wrong(String),
 }
 
@@ -65,7 +65,7 @@ pub fn mapped(files: &Files, monitor: &mut dyn Monitor) -> Result<Mapped, Outcom
 }
 
 impl Mapped {
-    /// Writes all files of the map, and has it proved.
+    /// Writes all files of the map, and has `conemap_verify` prove it.
     pub fn judged(&self, files: &Files) -> Outcome {
         let Self { job, result } = self;
         if !result.report.certificate.as_ref().is_some_and(|certificate| certificate.bijective) {
@@ -100,7 +100,7 @@ impl Mapped {
         self.job.outputs(&self.result, &Choices::default(), &MapLook::default()).expect("the map has files")
     }
 
-    /// The numbers of the map.
+    /// The report of the map.
     pub fn report(&self) -> &Report {
         &self.result.report
     }
@@ -116,7 +116,7 @@ impl Outcome {
     }
 }
 
-/// The names of nested variants in what `Debug` prints: "Layout(NoMap { layouts: 3 })" is "Layout NoMap".
+/// The names of nested variants in the text that `Debug` prints: "Layout NoMap" for "Layout(NoMap { layouts: 3 })".
 fn variants(debug: &str) -> String {
     let mut names = Vec::new();
     let mut rest = debug;

@@ -1,7 +1,7 @@
 //! Real meshes and landmark pairs that live beside the project, for tests and benchmarks.
 //!
-//! They are read from `../shared/data`. A plain checkout has no folder `../shared`: what needs them is ignored there, by name.
-//! Where the folder exists, a missing file is a failure.
+//! They are read from `../shared/data`. A plain checkout has no folder `../shared`: tests that need the meshes are shown as ignored there,
+//! by name. Where the folder exists, a missing file is a failure.
 #![allow(clippy::print_stderr, reason = "benchmarks say why they are left out")]
 #![allow(dead_code, reason = "every test binary uses another part")]
 
@@ -12,17 +12,17 @@ use conemap::mesh::{SurfaceMesh, VertexId, check};
 use conemap::pipeline::{CapFaces, GroundTruth, MapInput};
 use std::path::{Path, PathBuf};
 
-/// Where the real meshes are, or would be.
+/// The folder of the real meshes, whether it exists or not.
 pub fn data_path() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data")
 }
 
-/// Whether this is a checkout beside a folder `../shared`; what that lacks is a failure.
+/// Whether this checkout lies beside a folder `../shared`; a file that is missing in that folder is a failure.
 pub fn has_data() -> bool {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").exists()
 }
 
-/// The data folder, or `None` (said on standard error) in a plain checkout.
+/// The data folder; `None` in a plain checkout, where standard error says that `user` is left out.
 pub fn data_folder(user: &str) -> Option<PathBuf> {
     if !has_data() {
         eprintln!("left out, {user}: the real meshes (../shared/data) are not part of a plain checkout");
@@ -47,7 +47,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// The pair as the pipeline takes it.
+    /// The pair as input of the pipeline.
     pub fn input<'a>(&'a self, landmarks: &'a Landmarks, ground_truth: GroundTruth<'a>) -> MapInput<'a> {
         MapInput {
             source: &self.source,
@@ -128,7 +128,7 @@ pub fn json_fields(value: &serde_json::Value) -> Vec<String> {
     fields
 }
 
-/// The fields of the report of a map, `ground_truth` and `seconds` unopened.
+/// The fields of the report of a map; the fields inside `ground_truth` and `seconds` are not listed.
 pub const REPORT_FIELDS: [&str; 44] = [
     "base_domain.faces",
     "base_domain.vertices",

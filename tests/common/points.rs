@@ -1,4 +1,4 @@
-//! Landmarks at points of faces.
+//! Maps whose landmarks lie inside faces.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use conemap::landmarks::Landmarks;

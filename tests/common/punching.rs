@@ -5,7 +5,7 @@ use conemap::geodesic::distances;
 use conemap::mesh::{FaceId, SurfaceMesh, VertexId};
 use typed_index_collections::TiVec;
 
-/// Marks the faces nearest to a vertex until they have a share of the area.
+/// Marks the faces nearest to a vertex as removed until they have the given share of the area.
 pub fn remove_around(mesh: &SurfaceMesh, centre: VertexId, share: f64, removed: &mut TiVec<FaceId, bool>) {
     let far = distances(mesh, &[centre]);
     let farthest = |f: FaceId| mesh.triangles()[f].iter().map(|&v| far[v]).fold(0.0, f64::max);

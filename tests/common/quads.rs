@@ -1,4 +1,4 @@
-//! Bases as users have them: quads where two triangles make one, texture coordinates, normals, groups and materials.
+//! Base meshes for wrapping as users have them, with quads, texture coordinates, normals, groups and materials.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use conemap::mesh::normals::vertex_normals;
@@ -6,7 +6,8 @@ use conemap::mesh::{FaceId, HalfedgeId, SurfaceMesh};
 use glam::DVec3;
 use std::fmt::Write;
 
-/// An OBJ file of a closed mesh: pairs of triangles merged where that gives the squarest quads, all else as triangles.
+/// An OBJ file of a closed mesh, in which pairs of triangles are merged to the squarest quads and the others stay triangles; faces that are
+/// not kept are left out.
 pub fn obj_with_quads(mesh: &SurfaceMesh, is_kept: impl Fn(FaceId) -> bool) -> Vec<u8> {
     let mut text = String::from("# a base\nmtllib base.mtl\no body\n");
     let normals = vertex_normals(mesh);
@@ -14,7 +15,7 @@ pub fn obj_with_quads(mesh: &SurfaceMesh, is_kept: impl Fn(FaceId) -> bool) -> V
         writeln!(text, "v {} {} {}  0.5 0.25 {}", p.x, p.y, p.z, (v.0 % 10) as f64 / 10.0)
             .expect("memory takes text");
     }
-    // Cylindrical coordinates around the y axis would need arcs: any numbers do.
+    // The texture coordinates may be any numbers.
     for p in mesh.positions() {
         writeln!(text, "vt {:.6} {:.6}", 0.5 + p.x, 0.5 + p.y).expect("memory takes text");
     }
@@ -31,7 +32,7 @@ pub fn obj_with_quads(mesh: &SurfaceMesh, is_kept: impl Fn(FaceId) -> bool) -> V
     text.into_bytes()
 }
 
-/// Quads and the triangles that are left over; the best quads first, in the order of their faces.
+/// The quads and the triangles that are left over, in the order of their faces; the best quads are chosen first.
 fn polygons(mesh: &SurfaceMesh, is_kept: impl Fn(FaceId) -> bool) -> Vec<Vec<u32>> {
     let mut edges: Vec<(f64, HalfedgeId)> = mesh
         .edges()
@@ -55,14 +56,14 @@ fn polygons(mesh: &SurfaceMesh, is_kept: impl Fn(FaceId) -> bool) -> Vec<Vec<u32
     kept.filter_map(|(_, polygon)| polygon).collect()
 }
 
-/// The corners of both faces at an edge, in turn.
+/// The four corners of the two faces at an edge, in order around them.
 fn ring(mesh: &SurfaceMesh, h: HalfedgeId) -> [conemap::mesh::VertexId; 4] {
     let twin = mesh.twin(h);
     [mesh.tail(h), mesh.tail(twin.prev()), mesh.head(h), mesh.tail(h.prev())]
 }
 
-/// The largest |cosine| of the corners of the quad that two faces make; `None` where it is not nearly flat, hollow, or one of its
-/// angles is above 150 degrees.
+/// The largest |cosine| of the corners of the quad that two faces make; `None` where the quad is not nearly flat, is hollow, or has an
+/// angle above 150 degrees.
 fn worst_corner(mesh: &SurfaceMesh, h: HalfedgeId) -> Option<f64> {
     let normal = |f: FaceId| {
         let [p, q, r] = mesh.corners(f);

@@ -1,4 +1,4 @@
-//! What every remeshed surface must have.
+//! Checks that every remeshed surface must pass.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use conemap::mesh::SurfaceMesh;
@@ -6,7 +6,7 @@ use conemap::mesh::surface_index::SurfaceIndex;
 use conemap::monitor::Silent;
 use conemap::remesh::{Options, Remeshed, remesh};
 
-/// Remeshes and checks what every result must have.
+/// Remeshes a surface and checks the properties that every result must have.
 pub fn remeshed(name: &str, surface: &SurfaceMesh, options: &Options) -> Remeshed {
     let result = remesh(surface, options, &mut Silent).unwrap_or_else(|e| panic!("{name}: {e}"));
     let Remeshed { mesh, report } = &result;

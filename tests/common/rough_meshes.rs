@@ -1,4 +1,4 @@
-//! Closed meshes that no tool would be proud of, by seed: slivers, needles, flipped edges, noise, extreme scales.
+//! Closed meshes with bad triangles, by seed: slivers, needles, flipped edges, noise, extreme scales.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use conemap::math::random::SplitMix;
@@ -7,32 +7,32 @@ use conemap::mesh::generators::{icosphere, octahedron};
 use conemap::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec3;
 
-/// Random numbers of the library, and some made of them.
+/// The random numbers of the library, and some distributions made from them.
 pub struct Random(SplitMix);
 
 impl Random {
-    /// The numbers of a seed.
+    /// The random numbers of a seed.
     pub fn new(seed: u64) -> Self {
         Self(SplitMix::new(seed))
     }
 
-    /// Uniform in [0, 1).
+    /// A number, uniform in [0, 1).
     pub fn unit(&mut self) -> f64 {
         self.0.unit()
     }
 
-    /// Below `n`.
+    /// A whole number below `n`.
     pub fn below(&mut self, n: usize) -> usize {
         (self.unit() * n as f64) as usize
     }
 
-    /// Between 1e-12 and 1/2, every order of size alike.
+    /// A number between 1e-12 and 1/2, uniform in its logarithm.
     pub fn small(&mut self) -> f64 {
         0.5 * pow(10.0, -11.7 * self.unit())
     }
 }
 
-/// Where [`limbed`] has its limbs.
+/// The directions of the limbs of [`limbed`].
 pub const LIMBS: [DVec3; 3] = [DVec3::X, DVec3::new(-0.6, 0.8, 0.0), DVec3::new(0.0, -0.6, 0.8)];
 
 /// The place of a point of the unit ball on a ball with three limbs.
@@ -61,7 +61,8 @@ pub fn cut_octahedron(random: &mut Random, points: usize) -> SurfaceMesh {
     mesh
 }
 
-/// Another surface with the same number of handles: some edges turned, points put in near corners, noise, any scale.
+/// A rougher surface with the same number of handles: some edges are flipped, points inserted near corners, vertices moved by noise, and
+/// the whole is scaled.
 pub fn roughened(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
     let mut mesh = mesh.clone();
     let changes = mesh.vertex_count();
@@ -93,7 +94,7 @@ fn rebuilt(
     SurfaceMesh::from_triangles(positions, faces).ok()
 }
 
-/// A point in a face, near a corner or a side, or not.
+/// Inserts a point into a random face, sometimes near a corner or a side.
 pub fn split_face(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
     let face = FaceId::from(random.below(mesh.face_count()));
     let (s, t) = (random.small(), random.small());
@@ -110,7 +111,7 @@ pub fn split_face(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
     rebuilt(mesh, Some(point), change).expect("a face may be split")
 }
 
-/// A point on an edge, near its start or not.
+/// Inserts a point on a random edge, sometimes near its start.
 pub fn split_edge(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
     let h = HalfedgeId::from(random.below(3 * mesh.face_count()));
     let [p, q] = [mesh.tail(h), mesh.head(h)].map(|v| mesh.positions()[v]);
@@ -130,7 +131,7 @@ pub fn split_edge(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
     rebuilt(mesh, Some(point), change).expect("an edge may be split")
 }
 
-/// The other diagonal of two faces, where that is not an edge already.
+/// Flips a random edge to the other diagonal of its two faces, where that is not an edge already.
 pub fn flipped(mesh: &SurfaceMesh, random: &mut Random) -> SurfaceMesh {
     let h = HalfedgeId::from(random.below(3 * mesh.face_count()));
     let t = mesh.twin(h);

@@ -1,4 +1,4 @@
-//! What is true of every map and of every step towards it, checked on two meshes with landmarks, wherever they come from.
+//! Checks of properties that hold for every map and for every step towards it, on any two meshes with landmarks.
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use crate::common::{self, Pair};
@@ -45,7 +45,7 @@ impl From<Pair> for Case {
 }
 
 impl Case {
-    /// As the pipeline takes it.
+    /// The case as input of the pipeline.
     pub fn input(&self) -> MapInput<'_> {
         MapInput {
             source: &self.source,
@@ -56,27 +56,27 @@ impl Case {
         }
     }
 
-    /// The other way round.
+    /// The case with source and target exchanged.
     pub fn exchanged(&self) -> Self {
         let Self { name, source, target, landmarks, ground_truth } = self.clone();
         let landmarks = Landmarks { source: landmarks.target, target: landmarks.source };
         Self { name: format!("{name} backwards"), source: target, target: source, landmarks, ground_truth }
     }
 
-    /// Its certified map, with the usual options.
+    /// The certified map of the case, with the default options.
     pub fn map(&self) -> MapResult {
         run(self.input(), &PipelineOptions::default(), &mut Silent)
             .unwrap_or_else(|e| panic!("{}: {e}", self.name))
     }
 }
 
-/// The images of all vertices.
+/// The images of all vertices of the source.
 pub fn images(result: &MapResult) -> Vec<SurfacePoint> {
     result.target_from_source.iter().map(|p| p.expect("the relaxed map leaves nothing out")).collect()
 }
 
-/// The flow to equal cones converges: the angles of the metric's triangles, from their lengths alone, add up to those cones,
-/// and to Gauss and Bonnet's total.
+/// Checks that the flow to equal cones converges: the angles of the metric's triangles, computed from their lengths alone, add up to those
+/// cones and satisfy Gauss-Bonnet.
 pub fn flow_converges(name: &str, mesh: &SurfaceMesh, landmarks: &[VertexId]) {
     let target = uniform_curvature(mesh.vertex_count(), landmarks);
     for scheme in [Scheme::Inversive, Scheme::VertexScaling] {
@@ -100,7 +100,7 @@ pub fn flow_converges(name: &str, mesh: &SurfaceMesh, landmarks: &[VertexId]) {
     }
 }
 
-/// Without flips the flow breaks down, and says so with the residual of each step.
+/// Checks that the flow without flips breaks down, and that its error has the residual of each step.
 pub fn fixed_triangulation_fails_and_says_so(mesh: &SurfaceMesh, landmarks: &[VertexId]) {
     let target = uniform_curvature(mesh.vertex_count(), landmarks);
     let options = FlowOptions { scheme: Scheme::FixedTriangulation, ..FlowOptions::default() };
@@ -116,7 +116,7 @@ pub fn fixed_triangulation_fails_and_says_so(mesh: &SurfaceMesh, landmarks: &[Ve
     }
 }
 
-/// The base domain drawn on both meshes at once: every invariant that the later stages rely on.
+/// Draws the base domain on both meshes at once, and checks every invariant that the later stages rely on.
 pub fn has_a_valid_layout(case: &Case) {
     let Case { name, landmarks, .. } = case;
     let options = LayoutOptions { attempts: 1, ..LayoutOptions::default() };
@@ -133,8 +133,8 @@ pub fn has_a_valid_layout(case: &Case) {
     assert!((defects - 2.0 * TAU).abs() < 1e-9, "Gauss-Bonnet of {name}: {defects}");
 }
 
-/// The target simplified to its landmarks is a triangulation of the sphere with their number and places as vertices, and is drawn
-/// on both meshes, every invariant held.
+/// Checks that the target simplified to its landmarks is a triangulation of the sphere whose vertices are the landmarks, and that its
+/// drawing on both meshes satisfies every invariant.
 pub fn simplified_base_is_drawn(case: &Case) {
     let Case { name, landmarks, .. } = case;
     let base = base_domain::simplify(&case.target, &landmarks.target.raw, &mut Silent)
@@ -152,8 +152,8 @@ pub fn simplified_base_is_drawn(case: &Case) {
     }
 }
 
-/// Both parametrisations onto the cone surface are certified, before and after their relaxation, and one after the inverse of
-/// the other covers both surfaces once and returns.
+/// Checks that both parametrisations onto the cone surface are certified, before and after their relaxation, and that their composition
+/// covers both surfaces once and takes points there and back.
 pub fn parametrisations_are_certified(case: &Case) {
     let Case { name, landmarks, .. } = case;
     let options = LayoutOptions { attempts: 1, ..LayoutOptions::default() };
@@ -185,7 +185,7 @@ pub fn parametrisations_are_certified(case: &Case) {
         "{name}: {}",
         overlay.source_area_defect
     );
-    // Slivers of 0.01 degrees on the real horse: 4.5e-10.
+    // On the real horse, which has slivers of 0.01 degrees, the defect is 4.5e-10.
     assert!(overlay.target_area_defect < 1e-8, "{name}: {}", overlay.target_area_defect);
     assert!((measured.source_area - 1.0).abs() < 1e-9, "{name}: {}", measured.source_area);
     assert!((measured.target_area - 1.0).abs() < 1e-9, "{name}: {}", measured.target_area);
@@ -193,7 +193,8 @@ pub fn parametrisations_are_certified(case: &Case) {
     assert!(measured.energy >= 4.0 && measured.mean >= 1.0, "{name}: {}", measured.energy);
 }
 
-/// Source -> target -> source and back: 2000 points either way, by a generator with a fixed seed.
+/// Checks that 2000 points return from source to target to source, and 2000 from target to source to target; a generator with a fixed seed
+/// chooses them.
 fn returns(name: &str, [source, target]: [Parametrised<'_>; 2], overlay: &overlay::Overlay) {
     let map = PointMap::new(source, target, overlay);
     let [from, onto] = [source, target].map(|side| side.mesh);
@@ -219,7 +220,8 @@ fn returns(name: &str, [source, target]: [Parametrised<'_>; 2], overlay: &overla
     assert!(worst < 1e-9, "{name}: {worst}");
 }
 
-/// Certificate, energy bound, flat metrics, valid images, landmarks onto landmarks.
+/// Makes the map of a case and checks its certificate, its energy against the bound, the flat metrics, the images, and that landmarks go to
+/// landmarks.
 pub fn map_is_certified(case: &Case, largest_energy: f64) -> MapResult {
     let Case { name, landmarks, .. } = case;
     let result = case.map();
@@ -252,7 +254,7 @@ pub fn map_is_certified(case: &Case, largest_energy: f64) -> MapResult {
     result
 }
 
-/// The map from target to source is the inverse of the map from source to target.
+/// Checks that the map from target to source is the inverse of the map from source to target.
 pub fn exchange_gives_the_inverse(case: &Case) {
     let name = &case.name;
     let (forth, inverse) = (case.map(), case.exchanged().map());
@@ -269,7 +271,7 @@ pub fn exchange_gives_the_inverse(case: &Case) {
     }
 }
 
-/// The source's point that a map takes to a vertex of its target at `place`.
+/// The place on the source that a map takes to the target's vertex at `place`.
 fn preimage(map: &MapResult, place: DVec3, target: &SurfaceMesh) -> DVec3 {
     let common = &map.common;
     let nearest = common.target_positions.iter().zip(&common.source_positions);
@@ -279,7 +281,7 @@ fn preimage(map: &MapResult, place: DVec3, target: &SurfaceMesh) -> DVec3 {
     *here
 }
 
-/// A mesh is mapped identically onto itself.
+/// Checks that a mesh is mapped onto itself by the identity.
 pub fn identity_is_found(name: &str, mesh: &SurfaceMesh, chosen: &[VertexId]) {
     let landmarks = Landmarks { source: chosen.to_vec().into(), target: chosen.to_vec().into() };
     let ground_truth = GroundTruth::SameConnectivity;
@@ -287,7 +289,7 @@ pub fn identity_is_found(name: &str, mesh: &SurfaceMesh, chosen: &[VertexId]) {
         Case { name: name.into(), source: mesh.clone(), target: mesh.clone(), landmarks, ground_truth };
     let result = case.map();
     let distortion = &result.report.distortion;
-    // Coincident edges are parted by nudges, whose traces beside landmarks are a millionth.
+    // Coincident edges are separated by small shifts, which change the measures by a millionth beside landmarks.
     assert!((distortion.energy - 4.0).abs() < 1e-5, "{name}: {distortion:?}");
     assert!((distortion.mean - 1.0).abs() < 1e-5, "{name}: {distortion:?}");
     let bound = 1e-6 * mesh.area().sqrt();
@@ -297,7 +299,7 @@ pub fn identity_is_found(name: &str, mesh: &SurfaceMesh, chosen: &[VertexId]) {
     }
 }
 
-/// Stops at the n-th step; never when there is no such step.
+/// A monitor that stops the run at the n-th step, or never when there is no such step.
 struct StopAt {
     steps: usize,
     limit: usize,
@@ -314,7 +316,7 @@ impl Monitor for StopAt {
     }
 }
 
-/// A run repeats to the last bit, and stops at the step at which it is asked to.
+/// Checks that a second run gives the same result to the last bit, and that a run stops at the step at which it is asked to.
 pub fn run_repeats_and_stops(case: &Case) {
     let name = &case.name;
     let options = PipelineOptions::default();
@@ -334,7 +336,7 @@ pub fn run_repeats_and_stops(case: &Case) {
     }
 }
 
-/// The thesis' patchwise map tells what it leaves out.
+/// Checks that the thesis' patchwise map reports what it leaves out.
 pub fn patchwise_map_tells_what_is_missing(case: &Case) {
     let Case { name, source, target, landmarks, .. } = case;
     let options = PipelineOptions { method: Method::Thesis, ..PipelineOptions::default() };
@@ -358,7 +360,8 @@ pub fn patchwise_map_tells_what_is_missing(case: &Case) {
     assert!(common.uvs.iter().all(|uv| uv.is_finite()), "{name}");
 }
 
-/// `count` of the landmarks by farthest points of the source in space, from the one farthest from their mean on.
+/// The case with `count` of its landmarks, chosen as farthest points in space on the source, beginning with the landmark farthest from
+/// their mean.
 pub fn farthest_landmarks(case: &Case, count: usize) -> Case {
     let all = &case.landmarks;
     let places: Vec<DVec3> = all.source.iter().map(|&v| case.source.positions()[v]).collect();
@@ -378,8 +381,8 @@ pub fn farthest_landmarks(case: &Case, count: usize) -> Case {
     Case { landmarks, ..case.clone() }
 }
 
-/// The maps with and without the program's own cones. The landmarks alone make the base domain, and the map with cones meets
-/// them on the mesh that was given.
+/// Makes the maps with and without the program's own cones, and checks that the base domain has the landmarks alone as vertices, and that
+/// the map with cones meets the landmarks on the mesh that was given.
 pub fn maps_with_and_without_own_cones(case: &Case) -> [MapResult; 2] {
     let Case { name, target, landmarks, .. } = case;
     let usual = OwnConeOptions::default();

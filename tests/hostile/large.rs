@@ -2,7 +2,7 @@
 
 const SIZE: usize = 1 << 20;
 
-/// A text that repeats a part up to the size, between a beginning and an end.
+/// A text of about `SIZE` bytes that repeats a part between a beginning and an end.
 fn repeated(begin: &str, part: &str, end: &str) -> Vec<u8> {
     let count = (SIZE - begin.len() - end.len()) / part.len();
     [begin, &part.repeat(count), end].concat().into_bytes()
@@ -15,7 +15,7 @@ fn list(name: &str, element: &str) -> Vec<u8> {
     repeated(&begin, &format!(",{element}"), "]}")
 }
 
-/// A polygon with its corners at given places.
+/// A file of one polygon with its corners at given places.
 fn polygon(places: impl Iterator<Item = [f64; 2]>) -> Vec<u8> {
     let mut text = String::new();
     let mut count = 0;
@@ -27,7 +27,7 @@ fn polygon(places: impl Iterator<Item = [f64; 2]>) -> Vec<u8> {
     (text + "f " + &corners.join(" ") + "\n").into_bytes()
 }
 
-/// Corners of an outline of about the size.
+/// The number of corners of a polygon whose file has about `SIZE` bytes.
 const CORNERS: usize = 30_000;
 
 fn on_circle(k: usize, turns: f64, radius: f64) -> [f64; 2] {
@@ -35,13 +35,13 @@ fn on_circle(k: usize, turns: f64, radius: f64) -> [f64; 2] {
     [radius * conemap::math::scalar::cos(angle), radius * conemap::math::scalar::sin(angle)]
 }
 
-/// A PLY of elements of one byte each.
+/// A PLY file of elements of one byte each.
 fn bytes_ply(elements: &str, counts: usize) -> Vec<u8> {
     let header = format!("ply\nformat binary_little_endian 1.0\n{elements}end_header\n");
     [header.into_bytes(), vec![0; counts]].concat()
 }
 
-/// All of them, with names.
+/// All large files, with their names.
 pub fn files() -> Vec<(&'static str, Vec<u8>)> {
     let doubled: Vec<String> = (1..60).map(|k| format!("{{\"children\":[{k},{k}]}}")).collect();
     let doubled = format!(

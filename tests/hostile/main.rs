@@ -1,5 +1,5 @@
-//! Files that break readers: kept ones with what is said to each, large ones that ask for much, and changes of both. Every one
-//! is answered within 256 MiB; how long it takes is told alone, since other programs may run.
+//! Tests of readers on hostile files: kept ones with the expected answer to each, large ones that ask for much memory, and changed copies
+//! of both. Every file must be answered within 256 MiB; the time is only printed, since other programs may run.
 //!
 //! `cargo xtask fuzz --runs N --seed S` makes more changes.
 #![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
@@ -16,7 +16,7 @@ use readers::Reader;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Bytes that a file of up to 1 MiB may take, beyond its own.
+/// The memory in bytes that the reading of a file of up to 1 MiB may take, beyond the file itself.
 const MOST_BYTES: usize = 256 << 20;
 
 fn folder() -> PathBuf {
@@ -33,7 +33,7 @@ fn kept() -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// What is said of a file, with its bytes of memory.
+/// The answer to a file, and the memory that it took, in bytes.
 fn answer(name: &str, bytes: &[u8]) -> (String, usize) {
     if name.ends_with(".json") {
         most_bytes(|| readers::landmarks(name, bytes))
@@ -42,7 +42,7 @@ fn answer(name: &str, bytes: &[u8]) -> (String, usize) {
     }
 }
 
-/// `outcomes.txt` has a line for each kept file: its name and what is said. With `CONEMAP_WRITE_OUTCOMES` set it is written anew.
+/// `outcomes.txt` has a line for each kept file: its name and the answer to it. With `CONEMAP_WRITE_OUTCOMES` set the file is written anew.
 #[test]
 fn kept_files_are_answered_as_told() {
     let mut told = String::new();
@@ -76,7 +76,7 @@ fn large_files_are_answered_in_little_memory() {
     }
 }
 
-/// Runs of a reader on changed files.
+/// The runs of a reader on changed files.
 struct Runs {
     reader: Reader,
     count: usize,
@@ -84,7 +84,7 @@ struct Runs {
     longest: Duration,
 }
 
-/// Reads changed files; a panic says how to have the file again.
+/// Has a reader read changed files; a panic says how to make the file again.
 fn run(reader: Reader, count: usize, seed: u64) -> Runs {
     let mut files = kept();
     files.extend(written());
@@ -132,7 +132,7 @@ fn written() -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// Good files of the kinds that go with a mesh; each is read.
+/// Good files of the kinds that go with a mesh; readers accept each.
 fn beside_meshes() -> Vec<(String, Vec<u8>)> {
     let vertices = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n";
     let textured =
@@ -178,7 +178,7 @@ fn good_files_are_read() {
         for reader in Reader::all().into_iter().filter(|reader| reader.reads(&name, &bytes)) {
             let said = reader.read(&bytes);
             let is_read = said.starts_with(|c: char| c.is_ascii_digit()) || said == "can be moved";
-            // Some are meshes with holes, or a list of landmarks to look at.
+            // Some of the files are meshes with holes, or lists of landmarks, which need not be accepted.
             assert!(
                 is_read || matches!(reader, Reader::Mesh(_) | Reader::Landmarks(_)),
                 "{name}, {}: {said}",

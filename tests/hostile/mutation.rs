@@ -1,9 +1,8 @@
-//! Changes of files that readers may stumble over: of bytes, of numbers in text, of whole numbers in binary files, of the order
-//! of parts.
+//! Changes of files that may break readers: of bytes, of numbers in text, of whole numbers in binary files, of the order of parts.
 
 use conemap::math::random::SplitMix;
 
-/// Numbers as text that are seldom expected.
+/// Unusual numbers, as text.
 const NUMBERS: [&str; 20] = [
     "0",
     "-1",
@@ -27,7 +26,7 @@ const NUMBERS: [&str; 20] = [
     "1000000000",
 ];
 
-/// Words of the formats.
+/// Words and signs of the file formats.
 const WORDS: [&str; 24] = [
     "\n",
     "\r",
@@ -55,7 +54,7 @@ const WORDS: [&str; 24] = [
     "\0",
 ];
 
-/// Makes changes; the same for the same seed.
+/// A source of random changes; the same seed gives the same changes.
 pub struct Mutator {
     random: SplitMix,
 }
@@ -65,19 +64,19 @@ impl Mutator {
         Self { random: SplitMix::new(seed) }
     }
 
-    /// A number below another.
+    /// A random number below `most`.
     pub fn below(&mut self, most: usize) -> usize {
         ((self.random.unit() * most as f64) as usize).min(most.saturating_sub(1))
     }
 
-    /// One of the files with some changes.
+    /// One of the files, chosen at random, with some changes.
     pub fn changed(&mut self, files: &[Vec<u8>]) -> Vec<u8> {
         let mut bytes = files[self.below(files.len())].clone();
         let binary_part = json_end(&bytes);
         for _ in 0..=self.below(6) {
             self.change(&mut bytes, files);
         }
-        // Mostly the container stays good, so that what is in it is read.
+        // Seven times of eight the container is repaired, so that its content is read.
         if let Some(end) = binary_part.filter(|_| self.below(8) > 0) {
             restore_container(&mut bytes, end);
         }
@@ -112,7 +111,7 @@ impl Mutator {
         }
     }
 
-    /// Puts a whole number that is seldom expected over bytes.
+    /// Overwrites bytes with an unusual whole number.
     fn overwrite(&mut self, bytes: &mut [u8], at: usize, size: usize) {
         let any = (self.random.unit() * 1.8e19) as u64;
         let number =
@@ -125,7 +124,7 @@ impl Mutator {
         }
     }
 
-    /// Puts another number in the place of the next one of a text.
+    /// Replaces the next number of a text by another one.
     fn replace_number(&mut self, bytes: &mut Vec<u8>, at: usize) {
         let Some(begin) = bytes[at..].iter().position(u8::is_ascii_digit).map(|k| at + k) else { return };
         let is_of_number = |b: &u8| b.is_ascii_digit() || matches!(b, b'.' | b'e' | b'-' | b'+');
@@ -135,13 +134,13 @@ impl Mutator {
     }
 }
 
-/// Where the JSON of a GLB ends, counted from the end of the file.
+/// The end of the JSON of a GLB, counted in bytes from the end of the file.
 fn json_end(bytes: &[u8]) -> Option<usize> {
     let length = u32::from_le_bytes(bytes.get(12..16)?.try_into().ok()?) as usize;
     bytes.starts_with(b"glTF").then(|| bytes.len().saturating_sub(20 + length))
 }
 
-/// Makes the lengths of a GLB fit what became of it; its last part kept its length.
+/// Corrects the lengths in the header of a changed GLB; the part after its JSON kept its length.
 fn restore_container(bytes: &mut [u8], after_json: usize) {
     let total = bytes.len();
     let Some(json) = total.checked_sub(20 + after_json) else { return };
@@ -152,7 +151,7 @@ fn restore_container(bytes: &mut [u8], after_json: usize) {
     bytes[16..20].copy_from_slice(b"JSON");
 }
 
-/// A map file with none of its sections packed, so that changes reach what is in them.
+/// A copy of a map file with none of its sections compressed, so that changes reach their content.
 pub fn unpacked(map: &[u8]) -> Vec<u8> {
     let length = u32::from_le_bytes(map[12..16].try_into().unwrap()) as usize;
     let (text, sections) = map[16..].split_at(length);

@@ -1,4 +1,4 @@
-//! Everything that reads bytes which a user gives, and what it says to them.
+//! The readers of all bytes that a user may give, and their answers.
 
 use conemap::io::landmark_formats::{self, LandmarkFormat};
 use conemap::io::moved::{self, MoveError, Normals};
@@ -36,14 +36,14 @@ pub static MESH: LazyLock<FileMesh> = LazyLock::new(|| {
 });
 
 impl Reader {
-    /// All of them.
+    /// All readers.
     pub fn all() -> Vec<Self> {
         let meshes = Format::ALL.into_iter().map(Self::Mesh);
         let others = [Self::VertexTable, Self::Curves, Self::TextureCoordinates, Self::Moved, Self::Map];
         meshes.chain(LandmarkFormat::ALL.into_iter().map(Self::Landmarks)).chain(others).collect()
     }
 
-    /// Those that read any large file: formats of meshes are told by content, so that one stands for all.
+    /// The readers for large files. The format of a mesh is recognised by its content, so that one reader stands for all formats.
     pub fn of_large_files() -> Vec<Self> {
         let landmarks = Self::Landmarks(LandmarkFormat::Conemap);
         vec![
@@ -57,7 +57,7 @@ impl Reader {
         ]
     }
 
-    /// Its name.
+    /// The name of the reader.
     pub fn name(self) -> String {
         match self {
             Self::Mesh(format) => format.to_string(),
@@ -70,7 +70,7 @@ impl Reader {
         }
     }
 
-    /// Whether a file is of its kind.
+    /// Whether the reader is meant for a file.
     pub fn reads(self, name: &str, bytes: &[u8]) -> bool {
         match self {
             Self::Mesh(format) => detect(bytes) == Some(format),
@@ -83,10 +83,10 @@ impl Reader {
         }
     }
 
-    /// Reads bytes, whatever they are.
+    /// Reads any bytes and returns the answer.
     pub fn read(self, bytes: &[u8]) -> String {
         if matches!(self, Self::VertexTable | Self::Curves) {
-            // The page asks first what a file may hold that is to be brought across a map.
+            // The page asks first what a file may hold that the user wants to bring across a map.
             drop(given_file(bytes));
         }
         match self {
@@ -115,7 +115,7 @@ impl Reader {
     }
 }
 
-/// Reads and checks a mesh.
+/// Reads and checks a mesh, and returns the answer.
 pub fn mesh(bytes: &[u8]) -> String {
     let soup = match read_mesh(bytes) {
         Ok(soup) => soup,
@@ -129,8 +129,8 @@ pub fn mesh(bytes: &[u8]) -> String {
     }
 }
 
-/// Moves the vertices of a mesh file, or says why that cannot be. Where they stand is known of every file that is read, so that
-/// nothing but a place may change; without its normals a file may look like one of another format.
+/// Moves the vertices of a mesh file, or says why that is not possible. In every file that can be read the places of the vertices are
+/// known, so that nothing else may change; without its normals a file may look like one of another format.
 fn moved(bytes: &[u8]) -> String {
     let [kept, dropped] = [Normals::Kept, Normals::Dropped].map(|normals| moved::check(bytes, normals));
     assert!(!matches!(kept, Err(MoveError::ReadsOtherwise(_) | MoveError::Unreadable(_))), "{kept:?}");
@@ -140,7 +140,7 @@ fn moved(bytes: &[u8]) -> String {
     }
 }
 
-/// Reads a map of the octahedron onto itself.
+/// Reads a map of the octahedron onto itself, and returns the answer.
 fn map(bytes: &[u8]) -> String {
     match map_file::read(bytes, [&MESH; 2]) {
         Ok(map) => format!("{} pieces", map.correspondence.pieces.len()),
@@ -148,7 +148,7 @@ fn map(bytes: &[u8]) -> String {
     }
 }
 
-/// Reads a landmark file.
+/// Reads a landmark file, and returns the answer.
 pub fn landmarks(name: &str, bytes: &[u8]) -> String {
     match landmark_formats::read(name, bytes) {
         Ok((format, _)) => format!("landmarks, {}", format.id()),

@@ -1,4 +1,4 @@
-//! The smallest map file with all that one may hold: the identity of a mesh, written by the program.
+//! A small map file with all parts that one may hold: the identity of a mesh, written by the program.
 
 use conemap::base_domain::BaseDomain;
 use conemap::io::landmark_file::{LandmarkFile, LandmarkPoint};
@@ -8,7 +8,7 @@ use conemap::surface_map::correspondence::{Correspondence, MappedPiece, TextureD
 use conemap::surface_map::flat_layout::{FlatDrawing, FlatLayout, FlatPolygon, FlatVertex};
 use glam::{DMat2, DVec2};
 
-/// Its bytes.
+/// The bytes of the map file.
 pub fn bytes(file: &FileMesh) -> Vec<u8> {
     let mesh = file.mesh();
     let map = MapFile {
@@ -28,7 +28,8 @@ pub fn bytes(file: &FileMesh) -> Vec<u8> {
     write(&map, [file; 2])
 }
 
-/// The faces, but for two that are cut from the middle of an edge, and a piece without inside along another.
+/// The pieces of the identity: the faces, of which two are cut from a point on their common edge to the opposite corners, and a piece
+/// without area along another edge.
 fn pieces(mesh: &SurfaceMesh) -> Correspondence {
     let halfedge = HalfedgeId::of(FaceId(3), 1);
     let mut vertices: Vec<[Place; 2]> = mesh.vertices().map(|v| [Place::Vertex(v); 2]).collect();

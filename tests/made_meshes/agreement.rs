@@ -1,5 +1,6 @@
-//! Same input, same result, natively and in the page: the native half. It leaves the files of its maps in Cargo's folder for
-//! temporary test files; `tests/unit/agreement.test.ts` makes the same maps with the page's own wasm module and compares.
+//! The native half of the test that the same input gives the same result natively and in the page. It writes the files of its maps to
+//! Cargo's folder for temporary test files; `tests/unit/agreement.test.ts` makes the same maps with the page's own wasm module and
+//! compares.
 
 use crate::job::{Files, run};
 use conemap::job::{MapFiles, OpenMap, OutputKind};
@@ -23,7 +24,7 @@ fn maps_of_demos_are_left_for_the_page_to_compare() {
         leave("report.json", serde_json::to_string_pretty(&result.report).unwrap().as_bytes());
         let map = job.map_file(&result, &Choices::default()).unwrap();
         let map = job.taken(&map).output(OutputKind::Map).unwrap();
-        // The page makes its files of the map file, as it is read again.
+        // The page makes its files from the map file, after reading it again.
         let open =
             OpenMap::read(MapFiles { map: &map, source: &files.source, target: &files.target }).unwrap();
         for kind in open.taken().kinds() {

@@ -1,4 +1,5 @@
-//! The base domain of a map as it is looked at: a closed surface whose patches are all of both meshes, each bordered by its lines.
+//! Tests of the picture of the base domain of a map: it is a closed surface, its patches cover both meshes, and patch lines border each
+//! patch.
 
 use super::job::{Files, run};
 use conemap::job::BasePicture;
@@ -21,7 +22,7 @@ fn area_of_mesh(mesh: &SurfaceMesh) -> f64 {
     area(&mesh.positions().raw, &triangles)
 }
 
-/// Euler's and Descartes' theorems, and lines that join the cones of their sides on both meshes.
+/// Checks Euler's and Descartes' theorems, and that each patch line joins the cones at the ends of its edge on both meshes.
 fn expect_closed(picture: &BasePicture, lines: &[Vec<Vec<DVec3>>; 2]) {
     let cones = picture.shapes[0].cones.len();
     assert_eq!(picture.triangles.len(), 2 * cones - 4);
@@ -44,7 +45,7 @@ fn expect_closed(picture: &BasePicture, lines: &[Vec<Vec<DVec3>>; 2]) {
 fn patches_are_all_of_both_meshes_and_a_saved_map_has_the_same() {
     let (id, landmarks) = ("sphere-tetrahedron", 5);
     let files = Files::of_demo(id, landmarks);
-    // Few landmarks: the program adds cones of its own.
+    // With few landmarks the program adds cones of its own.
     let (job, result) = run(&files, &PipelineOptions::default(), &mut Silent);
     let picture = job.base_picture(&result);
     expect_closed(&picture, &result.patch_lines);

@@ -1,4 +1,5 @@
-//! Meshes that both end at a cut: a known bend of a body, a leg cut off both, against what is unknown under caps.
+//! Tests of borders that correspond: a body and a bent copy, whose true map is known, both without a leg, compared with maps that treat the
+//! cuts as holes in the data.
 
 use crate::common::farthest_points;
 use crate::cutting::{Cuts, Kept, Open, Plane, rim_distances};
@@ -12,7 +13,7 @@ use conemap::pipeline::{
 use glam::DVec3;
 use typed_index_collections::TiVec;
 
-/// A horse and the same horse bent sideways along its length, vertex i being vertex i.
+/// A horse and the same horse bent sideways along its length; vertex i corresponds to vertex i.
 struct Poses {
     meshes: [SurfaceMesh; 2],
     leg: Cuts,
@@ -75,7 +76,7 @@ fn rim_goes_to_rim_where_both_meshes_end_there() {
     let [energy, free] = [&guessed, &unknown].map(|result| result.report.distortion.energy);
     assert!(energy < 1.02 * free, "{energy} {free}");
 
-    // What was taken for what, and that it was guessed.
+    // The report says which rims were taken to correspond, and that this was guessed.
     let told = unknown.report.borders.as_ref().unwrap();
     assert_eq!((told.case, told.asked, told.rims.len()), (BorderCase::Missing, Borders::Missing, 0));
     let told = guessed.report.borders.as_ref().unwrap();

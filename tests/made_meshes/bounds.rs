@@ -1,4 +1,5 @@
-//! Landmarks that make no sense, or lie as near to each other as they can: a certified map or a sentence, after bounded work.
+//! Tests that landmarks in a senseless order, or as near to each other as possible, end in a certified map or in an error with a sentence,
+//! after bounded work.
 
 use conemap::demo;
 use conemap::landmarks::Landmarks;
@@ -11,10 +12,10 @@ use conemap::pipeline::{MapInput, MapResult, PipelineError, PipelineOptions, run
 use glam::DVec3;
 use typed_index_collections::TiVec;
 
-/// Questions to the monitor after which a run is no longer bounded: a usual one of these meshes asks some thousand times.
+/// The number of questions to the monitor above which a run counts as unbounded; a usual run on these meshes asks some thousand times.
 pub const MOST_QUESTIONS: usize = 400_000;
 
-/// Counts questions; stops a run that asks too many, or at a chosen one.
+/// A monitor that counts the questions of a run, and stops the run after a given number.
 pub struct Counter {
     asked: usize,
     most: usize,
@@ -22,7 +23,7 @@ pub struct Counter {
 }
 
 impl Counter {
-    /// Stops after so many.
+    /// A monitor that stops the run after `most` questions.
     pub fn up_to(most: usize) -> Self {
         Self { asked: 0, most, stage: None }
     }
@@ -39,7 +40,7 @@ impl Monitor for Counter {
     }
 }
 
-/// The outcome of a run, which must not be cut short.
+/// The outcome of a run; fails where the run asks too many questions.
 fn bounded(meshes: [&SurfaceMesh; 2], pairs: &[[u32; 2]]) -> Result<MapResult, String> {
     let landmarks = Landmarks::from_vertices(meshes[0], meshes[1], pairs).unwrap();
     let input = MapInput::new(meshes[0], meshes[1], &landmarks);
@@ -65,7 +66,7 @@ fn permuted(pairs: &[[u32; 2]], seed: u64) -> Vec<[u32; 2]> {
     pairs.iter().zip(targets).map(|(pair, target)| [pair[0], target]).collect()
 }
 
-/// Every `step`-th vertex with itself.
+/// Pairs of every `step`-th vertex with itself.
 fn every(step: usize, count: u32) -> Vec<[u32; 2]> {
     (0..count).step_by(step).map(|v| [v, v]).collect()
 }
@@ -127,7 +128,7 @@ fn landmarks_on_neighbouring_vertices_have_a_good_map() {
     let bend = |p: &DVec3| DVec3::new(1.1 * p.x, p.y + 0.1 * p.x * p.x, p.z * (1.0 + 0.1 * p.y));
     let bent = ball.with_positions(ball.positions().iter().map(bend).collect());
     for face in [7, 300, 901] {
-        // A triangle, its three neighbours' apexes, and four corners of the icosahedron.
+        // The landmarks are the corners of a triangle, the apexes of its three neighbours, and four corners of the icosahedron.
         let [a, b, c] = ball.triangles().raw[face];
         let sides = [[a, b], [b, c], [c, a]].map(|[v, w]| ball.halfedge_between(v, w).unwrap());
         let apexes = sides.map(|h| ball.tail(ball.twin(h).prev()));
@@ -146,7 +147,7 @@ fn landmarks_on_neighbouring_vertices_have_a_good_map() {
 #[test]
 fn the_same_mesh_with_other_landmarks_has_the_inverse_map_when_exchanged() {
     let ball = icosphere(2);
-    // A quarter turn about the x axis, nearly, so that the landmarks differ and fit.
+    // The targets are turned by nearly a quarter turn about the x axis, so that the landmarks differ and fit.
     let turned = |v: u32| {
         let p = ball.positions()[VertexId(v)];
         let goal = DVec3::new(p.x, -p.z, p.y);
@@ -167,7 +168,7 @@ fn a_run_stops_wherever_it_is_asked_to() {
     let ball = icosphere(2);
     let bent =
         ball.with_positions(ball.positions().iter().map(|p| DVec3::new(1.4 * p.x, p.y, p.z)).collect());
-    // Few landmarks: the program adds cones of its own.
+    // With few landmarks the program adds cones of its own.
     let landmarks = Landmarks::from_vertices(&ball, &bent, &every(27, 162)).unwrap();
     let input = MapInput::new(&ball, &bent, &landmarks);
     let mut whole = Counter::up_to(usize::MAX);

@@ -1,4 +1,5 @@
-//! Broken meshes as files have them: several faults at once, in quads and in loose triangles, in any order, size and place.
+//! Tests of repair on broken meshes as files have them: with several faults at once, in quads and in loose triangles, in any order, size
+//! and place.
 
 use crate::damage::Damage;
 use crate::repair::is_sound;
@@ -13,13 +14,13 @@ use conemap::monitor::Silent;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// How a broken mesh comes to a file.
+/// The random choices by which a broken mesh becomes a file.
 struct Dressing {
     random: Damage,
 }
 
 impl Dressing {
-    /// A mesh with one to six faults, as a file; `largest` is the level of the finest ball.
+    /// The file of a mesh with one to six faults; `largest` is the largest number of subdivisions of a ball.
     fn file(seed: u64, largest: usize) -> Vec<u8> {
         let mut random = Random::new(seed);
         let mut damage = Damage::new(seed);
@@ -49,7 +50,7 @@ impl Dressing {
         }
     }
 
-    /// Vertices, polygons and their corners in another order.
+    /// Puts vertices, polygons and their corners in another order.
     fn shuffle(&mut self, soup: &mut PolygonSoup) {
         let order = self.order(soup.positions.len());
         let place = |v: &u32| order[*v as usize] as u32;
@@ -70,7 +71,7 @@ impl Dressing {
         order
     }
 
-    /// Any size, turned over or not, and sometimes far away.
+    /// A random map of places: it scales, sometimes mirrors, and sometimes moves far away.
     fn place(&mut self) -> impl Fn(DVec3) -> DVec3 + use<> {
         let size = [1.0, 1e-6, 1e6, 0.37][self.random.below(4)];
         let mirror = if self.random.chance(0.3) { -1.0 } else { 1.0 };
@@ -79,7 +80,7 @@ impl Dressing {
         move |p| size * DVec3::new(mirror * p.x, p.y, p.z) + by
     }
 
-    /// Some triangles made one with a neighbour that follows them, whatever quad that gives.
+    /// Merges some triangles with a neighbour that follows them in the list, whatever quad that gives.
     fn in_quads(&mut self, triangles: &[Vec<u32>]) -> Vec<Vec<u32>> {
         let mut polygons: Vec<Vec<u32>> = Vec::new();
         for triangle in triangles {
@@ -93,7 +94,7 @@ impl Dressing {
     }
 }
 
-/// Two triangles with a side that they run along in opposite directions, as one quad.
+/// The quad of two triangles that have a common side in opposite directions; `None` for others.
 fn quad(one: &[u32], other: &[u32]) -> Option<Vec<u32>> {
     let ([a, b, c], [_, _, _]) = (<[u32; 3]>::try_from(one).ok()?, <[u32; 3]>::try_from(other).ok()?);
     let far = |p: u32, q: u32| (0..3).find(|&k| [other[k], other[(k + 1) % 3]] == [q, p]);
@@ -111,7 +112,7 @@ fn off(soup: &PolygonSoup) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Binary, with coordinates of 32 bits.
+/// A binary STL file, with coordinates of 32 bits.
 fn stl(soup: &PolygonSoup) -> Vec<u8> {
     let mut bytes = vec![b' '; 80];
     bytes.extend((soup.polygons.len() as u32).to_le_bytes());
@@ -128,7 +129,8 @@ fn repair(soup: &PolygonSoup, options: &RepairOptions) -> Result<RepairedMesh, R
     repaired(soup, options, &mut Silent)
 }
 
-/// A sound mesh: its numbers and places are the file's, and it comes back from a file of its own as a good one.
+/// Checks that a repaired mesh is sound, that its numbers and places are those of the file, and that it is read back from a file of its own
+/// as a good mesh.
 fn is_good(soup: &PolygonSoup, mesh: &RepairedMesh) {
     is_sound(mesh);
     vertices_are_the_files(soup, &mesh.checked);
@@ -139,7 +141,7 @@ fn is_good(soup: &PolygonSoup, mesh: &RepairedMesh) {
     assert_eq!(again.mesh.triangles(), mesh.checked.mesh.triangles());
 }
 
-/// Vertices with a number of the file are at its place, bit for bit.
+/// Checks that vertices with a number of the file are at its place there, bit for bit.
 fn vertices_are_the_files(soup: &PolygonSoup, checked: &CheckedMesh) {
     for (v, number) in checked.mesh.vertices().zip(checked.file_from_vertex()) {
         if let Some(&place) = soup.positions.get(number) {
@@ -150,7 +152,7 @@ fn vertices_are_the_files(soup: &PolygonSoup, checked: &CheckedMesh) {
     }
 }
 
-/// Faces with a number of the file have corners of that polygon only.
+/// Checks that faces with a number of the file have corners of that polygon only.
 fn faces_are_the_files(soup: &PolygonSoup, checked: &CheckedMesh) {
     let polygons = soup.polygons.iter().flat_map(|p| std::iter::repeat_n(p, p.len().saturating_sub(2)));
     let of_triangle: Vec<&Vec<u32>> = polygons.collect();
@@ -160,7 +162,7 @@ fn faces_are_the_files(soup: &PolygonSoup, checked: &CheckedMesh) {
         assert_eq!(checked.face_from_file(number), Some(face));
         if let Some(polygon) = of_triangle.get(number.index()) {
             assert!(!checked.is_cap(face));
-            // Vertices at one place within rounding may have been joined.
+            // Vertices at the same place within rounding may have been joined.
             let size = checked.mesh.area().sqrt();
             let near = |p: DVec3| {
                 let away = |v: &u32| checked.frame.on_mesh(soup.positions[*v as usize]).distance(p);
@@ -171,7 +173,7 @@ fn faces_are_the_files(soup: &PolygonSoup, checked: &CheckedMesh) {
     }
 }
 
-/// The seeds by what became of their files: a refusal's kind, or how it was repaired.
+/// The seeds by the outcome of their files: the kind of the refusal, or the way of the repair.
 type Outcomes = BTreeMap<&'static str, Vec<u64>>;
 
 fn outcomes(seeds: std::ops::Range<u64>, largest: usize) -> Outcomes {
@@ -191,7 +193,7 @@ fn outcomes(seeds: std::ops::Range<u64>, largest: usize) -> Outcomes {
                 assert_eq!(mesh.report, with_all.report, "seed {seed}");
                 let is_given = mesh.report.fault.is_none();
                 assert_eq!(is_given, closed_genus_zero(&soup).is_ok(), "seed {seed}");
-                // Turned faces alone are turned back in every mesh.
+                // A mesh whose only fault is turned faces is taken as good, and the faces are turned back.
                 let kinds: Vec<DefectKind> = found.groups.iter().map(|group| group.kind).collect();
                 assert!(
                     !is_given || [&[][..], &[DefectKind::TurnedPatch]].contains(&&kinds[..]),
@@ -217,7 +219,7 @@ fn outcomes(seeds: std::ops::Range<u64>, largest: usize) -> Outcomes {
 fn are_closed_or_refused_for_a_reason(outcomes: &Outcomes) {
     let count = |kind: &str| outcomes.get(kind).map_or(0, Vec::len);
     let reasons = ["open_sheet", "not_orientable", "too_many_handles", "nothing_left", "degenerate_faces"];
-    // Faces without area that cannot go without a hole.
+    // These files have faces without area that cannot be dropped without opening a hole.
     assert!(count("degenerate_faces") <= 2, "{outcomes:?}");
     let closed = count("repaired") + count("repaired when asked");
     let refused: usize = reasons.map(count).iter().sum();

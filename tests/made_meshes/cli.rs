@@ -1,4 +1,4 @@
-//! The command line: exit codes, reports, output files, and sentences for bad input.
+//! Tests of the command line: exit codes, reports, output files, and sentences for bad input.
 
 use crate::command_line::{a_failed_flow_reports, conemap, cones, errors, folder, json, map_and_check};
 use crate::common;
@@ -16,7 +16,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// An octahedron subdivided onto the unit sphere.
+/// A subdivided octahedron on the unit sphere.
 fn octasphere() -> SurfaceMesh {
     let fine = midpoint_subdivision(&midpoint_subdivision(&midpoint_subdivision(&octahedron())));
     let on_sphere = fine.positions().iter().map(|p| p.normalize()).collect();
@@ -76,7 +76,7 @@ fn a_mirrored_target_is_named_and_maps_as_the_target_itself() {
         );
         (errors(&output), std::fs::read_to_string(out.join("vertex-images.csv")).unwrap_or_default())
     };
-    // What becomes of the map is not told here, only that the doubt comes before it.
+    // The test is only that the doubt is reported before the map is made, whatever the map is.
     let (doubt, _) = map(&turned, &["--method=thesis"]);
     assert!(doubt.contains("mirrored") && doubt.contains("--mirror-target"), "{doubt}");
 
@@ -104,7 +104,7 @@ fn maps_two_round_bodies() {
     map_and_check(files.each_ref().map(PathBuf::as_path), &folder);
 }
 
-/// The OBJ file with a vertex in front that no face uses, inside out or not.
+/// The OBJ file with a vertex in front that no face uses, and on demand with its faces turned inside out.
 fn with_an_unused_vertex(obj: &str, inside_out: bool) -> String {
     let face = |words: &str| {
         let mut corners: Vec<usize> = words.split(' ').map(|n| n.parse::<usize>().unwrap() + 1).collect();
@@ -140,7 +140,7 @@ fn landmarks_and_tables_speak_of_the_files_vertices_and_corners() {
             }
         }
     }
-    // The target's faces are turned when it is read, so its weights belong to other corners.
+    // The target's faces are turned when the file is read, so the weights belong to other corners.
     file.pairs.last_mut().unwrap()[1] = on_face([0.5, 0.125, 0.375]);
     let [other_source, other_target, other_pairs] =
         ["source.obj", "target.obj", "pairs.json"].map(|name| other.join(name));
@@ -173,7 +173,7 @@ fn landmarks_and_tables_speak_of_the_files_vertices_and_corners() {
     assert_eq!(rows(&moved.join("vertex-distortion.csv")), expected);
 }
 
-/// Images are the same to the digit; positions up to the order in which a face's corners are added.
+/// Checks that images are the same to the digit, and positions up to the order in which the corners of a face are added.
 fn assert_same_images(found: &[Vec<String>], expected: &[Vec<String>]) {
     assert_eq!(found.len(), expected.len());
     for (found, expected) in found.iter().zip(expected) {
@@ -197,7 +197,7 @@ fn every_corner_of_an_stl_file_has_its_row() {
     };
     std::fs::write(&stl, format!("solid a\n{}endsolid a\n", mesh.faces().map(facet).collect::<String>()))
         .unwrap();
-    // Every landmark by the last corner at its place.
+    // Every landmark is given by the last corner at its place.
     let corners: Vec<VertexId> = mesh.triangles().iter().flatten().copied().collect();
     let mut file = landmark_file::read(&std::fs::read(&pairs).unwrap()).unwrap();
     for [point, _] in &mut file.pairs {
@@ -223,7 +223,7 @@ fn every_corner_of_an_stl_file_has_its_row() {
     }
 }
 
-/// Demos that are quickly mapped, of an animal and of bodies without limbs.
+/// Two demos that are mapped quickly, one of animals and one of bodies without limbs.
 const QUICK_DEMOS: [&str; 2] = ["horse-cat", "sphere-tetrahedron"];
 
 /// Maps demos by the command line.
@@ -269,7 +269,7 @@ fn meshes_whose_map_may_take_more_than_the_memory_limit_are_refused_before_the_r
 #[test]
 fn files_that_are_too_large_are_refused_unread() {
     let file = folder("too_large").join("mesh.obj");
-    // It has a length and no contents on the disk.
+    // The file has a length, and no contents on the disk.
     std::fs::File::create(&file).unwrap().set_len(io::MAX_BYTES as u64 + 1).unwrap();
     let refused = conemap([OsStr::new("check"), file.as_os_str()]);
     assert!(!refused.status.success());
@@ -278,7 +278,7 @@ fn files_that_are_too_large_are_refused_unread() {
     assert!(errors(&refused).contains(&sentence), "{}", errors(&refused));
 }
 
-/// Runs `map` on a demo with a limit of time; the report.
+/// Runs `map` on a demo with a time limit in seconds, and returns the report.
 fn mapped_within(seconds: &str) -> Value {
     let folder = folder(&format!("mapped_within/{seconds}"));
     let demo = conemap::demo::build("horse-cat").unwrap();
@@ -305,7 +305,7 @@ fn a_limit_of_time_gives_a_certified_map_sooner() {
     assert_eq!(short["layout"]["judged"], 1, "{short}");
 }
 
-/// Ctrl-C while the map is relaxed: a whole result.
+/// Ctrl-C during the relaxation of the map gives a whole result.
 #[cfg(unix)]
 #[test]
 fn an_interrupt_finishes_with_a_certified_map() {
@@ -321,7 +321,7 @@ fn an_interrupt_finishes_with_a_certified_map() {
         .spawn()
         .unwrap();
     let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
-    // The search for the layout has begun: the program listens now.
+    // The stage before the search for the layout has been printed, so the program listens to Ctrl-C now.
     let mut said =
         vec![lines.find(|line| line.starts_with("findings")).expect("the stage before the search")];
     let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
@@ -364,7 +364,7 @@ fn writes_demos_that_can_be_mapped() {
 #[test]
 fn the_report_tells_how_far_a_map_is_from_the_known_one() {
     let folder = folder("the_report_tells_how_far_a_map_is_from_the_known_one");
-    // The source bent: each vertex goes to the vertex of its number.
+    // The target is the bent source: each vertex goes to the vertex with its number.
     let mesh = octasphere();
     let image = fixtures::bent(&mesh);
     let landmarks: Vec<_> = extreme_vertices(&mesh).into_iter().map(|v| [v.0; 2]).collect();
@@ -383,7 +383,7 @@ fn the_report_tells_how_far_a_map_is_from_the_known_one() {
     assert!(errors(&mapped).contains("true images: mean"), "{}", errors(&mapped));
     let told: Value = serde_json::from_slice(&std::fs::read(&report).unwrap()).unwrap();
     let mean = told["ground_truth"]["mean"].as_f64().unwrap();
-    // The bend of a ball is not the map of least energy, but near it.
+    // The bend is not the map of least energy, but near it.
     assert!(0.0 < mean && mean < 0.02, "{mean}");
     std::fs::write(&truth, "source_vertex,x,y\n0,1,2\n").unwrap();
     let refused = map();
@@ -391,7 +391,7 @@ fn the_report_tells_how_far_a_map_is_from_the_known_one() {
     assert!(errors(&refused).contains("there is no column \"z\""), "{}", errors(&refused));
 }
 
-/// The demo whose true map is known has a file of it that its own map is held against.
+/// The demo whose true map is known comes with a file of it, with which the program's map is compared.
 #[test]
 #[ignore = "long: run by `cargo xtask test --all`"]
 fn the_turning_horse_is_near_its_known_map() {
@@ -506,7 +506,7 @@ fn a_flow_that_does_not_converge_fails_and_still_reports() {
     a_failed_flow_reports(&mesh, &case.landmarks.target.raw, &folder);
 }
 
-/// Fails with code 1 and one sentence that holds all the words.
+/// Checks that the program fails with code 1 and one sentence that holds all the words.
 fn assert_refused(arguments: &[&OsStr], words: &[&str]) {
     let output = conemap(arguments);
     let errors = errors(&output);
@@ -596,7 +596,7 @@ fn open_meshes_are_capped_and_the_map_says_so() {
     assert!(of("repaired", "source")["sentence"].as_str().unwrap().contains("1 hole was capped"));
     let share = of("capped", "target")["value"].as_f64().unwrap();
     assert!((0.01..0.05).contains(&share), "{share}");
-    // Nearly all skin has skin as partner, and the measures are those of skin.
+    // Nearly all skin is mapped onto skin, and the measures are those of skin.
     let coverage = |side: &str| report["coverage"][side].as_f64().unwrap();
     for side in ["source", "target"] {
         assert!((0.9..1.0).contains(&coverage(side)), "{side}: {}", coverage(side));
@@ -616,7 +616,7 @@ fn open_meshes_are_capped_and_the_map_says_so() {
     // Pieces so thin that rounding may have made them are not among the worst.
     assert!(densities("1") >= report["distortion"]["max"].as_f64().unwrap() * (1.0 - 1e-9));
 
-    // Where the images lie, in the numbers of the target's file: its faces, then those of the cap.
+    // The faces of the images are numbered as in the target's file; those of the cap follow.
     let soup = io::read_mesh(&std::fs::read(&target).unwrap()).unwrap();
     let rows = rows(&out.join("vertex-images.csv"));
     let [mut in_cap, mut on_skin] = [0, 0];
@@ -651,7 +651,7 @@ fn a_check_says_what_is_wrong_and_writes_the_repaired_mesh() {
     let kinds: Vec<_> = report["changes"].as_array().unwrap().iter().map(|c| c["kind"].clone()).collect();
     assert_eq!(kinds, ["capped_holes", "unused_vertices"]);
     assert_eq!(report["changes"][1]["vertices"], serde_json::json!([100]));
-    // Vertex 100 is gone, and the next ones have moved up.
+    // Vertex 100 is dropped, and the next ones have moved up.
     assert_eq!(report["numbers"]["vertices"][100], 101);
     let closed = closed_genus_zero(&io::read_mesh(&std::fs::read(&fixed).unwrap()).unwrap()).unwrap();
     assert_eq!(report["faces"], closed.mesh.face_count());
@@ -687,7 +687,7 @@ fn every_command_repairs_its_meshes_and_says_so() {
         let strict = [&command[..], &[OsStr::new("--strict")]].concat();
         assert_refused(&strict, &[".obj: the surface is open"]);
     }
-    // What is suggested is in the file, and not in its cap.
+    // The suggested points are vertices of the file, and none lies in the cap.
     let output = conemap([&commands[0][..], &[OsStr::new("--count=200")]].concat());
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     let found = found["suggestions"].as_array().unwrap();
@@ -734,7 +734,7 @@ fn wrap<'a>([base, scan, pairs]: [&'a Path; 3], out: &'a Path, flags: &[&'a str]
 fn a_base_is_laid_onto_a_scan() {
     let folder = folder("a_base_is_laid_onto_a_scan");
     let [base, scan, pairs] = write_bodies(&folder);
-    // In an old encoding, with old ends of lines.
+    // The base is in Latin-1, with carriage returns as ends of lines.
     let mut text = [b"# b\xe4r\n".to_vec(), obj_with_quads(&octasphere(), |_| true)].concat();
     text.iter_mut().filter(|byte| **byte == b'\n').for_each(|byte| *byte = b'\r');
     std::fs::write(&base, &text).unwrap();
@@ -751,7 +751,7 @@ fn a_base_is_laid_onto_a_scan() {
     assert!(wrapped.starts_with(b"# b\xe4r\r") && !has(b"vn ") && !has(b"\n") && has(b"\rusemtl skin0\r"));
     let [before, after] = [&text[..], &wrapped[..]].map(|bytes| io::read_mesh(bytes).unwrap());
     assert_eq!(before.polygons, after.polygons);
-    // On the egg, whose vertices are farther apart than those of the ball.
+    // The vertices lie near the egg, whose own vertices are farther apart than those of the ball.
     let off = |p: &DVec3| ((*p / DVec3::new(1.0, 1.3, 0.9)).length() - 1.0).abs();
     assert!(after.positions.iter().all(|p| off(p) < 0.05));
     let report = json(&report);
@@ -852,7 +852,7 @@ fn landmarks_that_nobody_gave_are_found_or_asked_for() {
     let held = [with, given, out, pairs, to, told.as_os_str()];
     let output = conemap([OsStr::new("match")].into_iter().chain(meshes).chain(held));
     assert!(output.status.success(), "{}", errors(&output));
-    // Another mesh than the file's is told.
+    // The program says that the landmark file names another mesh.
     assert!(errors(&output).contains("zebra.off"), "{}", errors(&output));
     let file = landmark_file::read(&std::fs::read(&found).unwrap()).unwrap();
     assert_eq!(file.pairs[0], first[0].map(landmark_file::LandmarkPoint::Vertex));
@@ -868,7 +868,7 @@ fn landmarks_that_nobody_gave_are_found_or_asked_for() {
     let matching = &json(&report)["matching"];
     assert!(errors(&output).contains(matching["verdict"]["sentence"].as_str().unwrap()), "{matching}");
 
-    // Round bodies have no limbs: the user is asked.
+    // Round bodies have no limbs to match, so the user is asked to mark vertices.
     let [source, target, _] = write_bodies(&folder);
     assert_refused(&["map".as_ref(), source.as_os_str(), target.as_os_str()], &["mark the vertices"]);
 }
@@ -1050,7 +1050,7 @@ fn a_map_is_made_from_the_landmark_files_of_both_meshes() {
     assert_eq!(images(&files, "from-two"), images(&[&pairs], "from-one"));
 }
 
-/// `map` with these options besides the files.
+/// Runs `map` on files with further options.
 fn map_with(files: &[PathBuf; 3], options: &[&OsStr]) -> std::process::Output {
     let [source, target, pairs] = files.each_ref().map(|path| path.as_os_str());
     let named = [OsStr::new("map"), source, target, OsStr::new("--landmarks"), pairs];
@@ -1119,7 +1119,7 @@ fn what_cannot_be_written_is_found_before_the_run() {
         refused(&[report, &folder.join("link.json")], read);
     }
     assert_eq!(files.each_ref().map(|path| std::fs::read(path).unwrap()), before);
-    // Nothing was left behind.
+    // No unfinished file was left behind.
     let names = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name());
     assert!(names.into_iter().all(|name| !name.to_string_lossy().contains("part")));
 }
@@ -1142,7 +1142,7 @@ fn a_result_is_written_although_nobody_listens() {
     assert!(child.wait().unwrap().success());
     let report = json(&report);
     assert_eq!(report["certificate"]["bijective"], true);
-    // That the landmark file is doubtful is told in the report as well.
+    // The report says as well that the landmark file is doubtful.
     let warnings = report["warnings"].as_array().unwrap();
     let doubts: Vec<_> = warnings.iter().filter(|w| w["kind"] == "landmark_file").collect();
     assert_eq!(doubts.len(), 2, "{warnings:?}");

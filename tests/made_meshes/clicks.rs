@@ -16,6 +16,6 @@ fn the_demo_has_as_good_a_map_from_points_in_faces() {
     for energy in [inside, on] {
         assert!((energy / at_vertices - 1.0).abs() < 0.05, "{energy} against {at_vertices}");
     }
-    // Nearer to the edge than anybody can click is on the edge.
+    // Landmarks nearer to the edge than anybody can click give the same map as landmarks on the edge.
     assert!((on / beside - 1.0).abs() < 0.005, "{on} {beside}");
 }

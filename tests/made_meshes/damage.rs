@@ -6,29 +6,29 @@ use conemap::mesh::generators::{icosphere, octahedron, tetrahedron, torus};
 use conemap::mesh::soup::PolygonSoup;
 use glam::DVec3;
 
-/// Adds another soup's vertices and polygons.
+/// Adds the vertices, moved by `place`, and polygons of another soup.
 pub fn add(soup: &mut PolygonSoup, other: &PolygonSoup, place: impl Fn(DVec3) -> DVec3) {
     let first = soup.positions.len() as u32;
     soup.positions.extend(other.positions.iter().map(|&p| place(p)));
     soup.polygons.extend(other.polygons.iter().map(|p| p.iter().map(|v| v + first).collect::<Vec<_>>()));
 }
 
-/// Takes all polygons away that have a corner within a distance of a place.
+/// Removes all polygons that have a corner within a distance of a place.
 pub fn punch(soup: &mut PolygonSoup, place: DVec3, radius: f64) {
     let positions = &soup.positions;
     soup.polygons.retain(|p| !p.iter().any(|&v| positions[v as usize].distance(place) < radius));
 }
 
-/// Random faults of a soup.
+/// A source of random faults of polygon soups.
 pub struct Damage(SplitMix);
 
 impl Damage {
-    /// The faults of a seed.
+    /// The source of a seed.
     pub fn new(seed: u64) -> Self {
         Self(SplitMix::new(seed))
     }
 
-    /// Below `n`.
+    /// A whole number below `n`.
     pub fn below(&mut self, n: usize) -> usize {
         ((self.0.unit() * n as f64) as usize).min(n - 1)
     }
@@ -83,7 +83,7 @@ impl Damage {
         }
     }
 
-    /// Vertices that are one from now on.
+    /// Merges random vertices.
     fn pinches(&mut self, soup: &mut PolygonSoup) {
         for _ in 0..self.below(3) {
             let [a, b] = [0; 2].map(|_| self.below(soup.positions.len()) as u32);
@@ -91,7 +91,7 @@ impl Damage {
         }
     }
 
-    /// Some polygons get vertices of their own.
+    /// Gives some polygons vertices of their own.
     fn torn_faces(&mut self, soup: &mut PolygonSoup) {
         let share = self.0.unit();
         for k in 0..soup.polygons.len() {
@@ -110,7 +110,7 @@ impl Damage {
         add(soup, &PolygonSoup::from(&tetrahedron()), |p| at * 1.5 + 0.02 * p);
     }
 
-    /// A face with one corner on the middle of an edge, its neighbour on the other side whole.
+    /// Divides faces at the middle of an edge whose neighbour on the other side stays whole, and adds the face without area between them.
     fn corners_on_edges(&mut self, soup: &mut PolygonSoup) {
         for _ in 0..1 + self.below(3) {
             if soup.polygons.is_empty() {
@@ -125,13 +125,13 @@ impl Damage {
         }
     }
 
-    /// A wall of a face across the inside, or any other three vertices.
+    /// Adds a face on three random vertices, such as a wall across the inside.
     fn walls(&mut self, soup: &mut PolygonSoup) {
         let corners = [0; 3].map(|_| self.below(soup.positions.len()) as u32);
         soup.polygons.push(corners.to_vec());
     }
 
-    /// A small mesh with one to four faults.
+    /// The soup of a small mesh with one to four faults.
     pub fn soup(&mut self) -> PolygonSoup {
         let mut soup = PolygonSoup::from(&self.mesh());
         let faults = 1 + self.below(4);
@@ -139,7 +139,7 @@ impl Damage {
         soup
     }
 
-    /// So many faults of triangles around the origin.
+    /// Adds a number of faults to a soup of triangles around the origin.
     pub fn break_it(&mut self, soup: &mut PolygonSoup, faults: usize) {
         let kinds: [fn(&mut Self, &mut PolygonSoup); 9] = [
             Self::holes,

@@ -1,5 +1,5 @@
-//! Exact geodesic distances on small meshes, as a judge of the approximate ones: windows carried from face to face, the nearest
-//! first (Chen & Han 1990), those dropped that a way through a vertex beats (Xin & Wang 2009).
+//! Exact geodesic distances on small meshes, to judge the approximate ones. Windows are carried from face to face, the nearest first (Chen
+//! & Han 1990); a window is dropped where a path through a vertex is shorter (Xin & Wang 2009).
 
 use crate::distance_bounds::along_edges;
 use conemap::mesh::{HalfedgeId, SurfaceMesh, VertexId};
@@ -7,11 +7,11 @@ use glam::DVec2;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-/// Rays through a part of an edge, which runs from (0, 0) to (length, 0), into the face of its halfedge above it.
+/// The rays through a part of an edge into the face of its halfedge. The edge runs from (0, 0) to (length, 0), and the face lies above it.
 #[derive(Clone, Copy)]
 struct Window {
     edge: HalfedgeId,
-    /// Where the rays come from, below the edge, and how far that is from the seed.
+    /// The point below the edge from which the rays come, and its distance from the seed.
     source: DVec2,
     at_source: f64,
     part: [f64; 2],
@@ -49,10 +49,10 @@ struct Search<'a> {
     pushed: u64,
 }
 
-/// More windows than this are a fault of the mesh's numbers, not of its size.
+/// The largest number of windows. More of them come from a fault in the coordinates of the mesh, not from its size.
 const MOST_WINDOWS: u64 = 5_000_000;
 
-/// Distances of all vertices to a seed, exact but for rounding.
+/// The distances of all vertices from a seed, exact but for rounding.
 pub fn exact_distances(mesh: &SurfaceMesh, seed: VertexId) -> Vec<f64> {
     let distance = along_edges(mesh, &[seed]);
     let mut search = Search { mesh, distance, queue: BinaryHeap::new(), pushed: 0 };
@@ -76,13 +76,13 @@ impl Search<'_> {
         self.queue.push(Entry(Reverse(key.to_bits()), self.pushed, event));
     }
 
-    /// Rays from a vertex through the sides of its faces on the other side.
+    /// Sends rays from a vertex through the opposite sides of its faces.
     fn leave(&mut self, v: VertexId) {
         let mesh = self.mesh;
         let sides: Vec<HalfedgeId> = mesh.star(v).map(|h| mesh.twin(h.next())).collect();
         for edge in sides {
             let length = mesh.length(edge);
-            // The vertex is seen from the other side, where the edge's twin has it above itself.
+            // The twin of the edge has the vertex above itself; on this side it lies below the edge.
             let twin = mesh.twin(edge);
             let at = apex(length, [mesh.length(twin.next()), mesh.length(twin.prev())]);
             let source = DVec2::new(length - at.x, -at.y);
@@ -91,7 +91,7 @@ impl Search<'_> {
         }
     }
 
-    /// Keeps a window unless a way through an end of its edge is shorter for all of it.
+    /// Keeps a window unless a path through an end of its edge is shorter for all of the window.
     fn offer(&mut self, w: Window) {
         let length = self.mesh.length(w.edge);
         let [left, right] = w.part;
@@ -108,7 +108,7 @@ impl Search<'_> {
         self.push(to(nearest), Event::Window(w));
     }
 
-    /// Over the face of its edge: to the corner if it is seen, and onto both other sides.
+    /// Carries a window over the face of its edge: to the opposite corner where rays reach it, and onto the other two sides.
     fn carry(&mut self, w: Window) {
         let (mesh, h) = (self.mesh, w.edge);
         let length = mesh.length(h);
@@ -135,7 +135,7 @@ impl Search<'_> {
     fn onto(&mut self, w: Window, edge: HalfedgeId, [from, to]: [DVec2; 2], rays: [DVec2; 2]) {
         let length = self.mesh.length(edge);
         let along = (to - from) / from.distance(to);
-        // Where a ray crosses the edge.
+        // The place where a ray crosses the edge.
         let crossing = |ray: DVec2| {
             let sine = ray.perp_dot(along);
             let x = (w.source - from).perp_dot(ray) / -sine;
@@ -148,7 +148,7 @@ impl Search<'_> {
     }
 }
 
-/// The third corner of a triangle above its side from (0, 0) to (length, 0) = b, from the lengths of b c and c a.
+/// The third corner c of a triangle above its side from a = (0, 0) to b = (length, 0), from the lengths of b c and c a.
 fn apex(length: f64, [bc, ca]: [f64; 2]) -> DVec2 {
     let x = 0.5 * (length + (ca - bc) * (ca + bc) / length);
     DVec2::new(x, ((ca - x) * (ca + x)).max(0.0).sqrt())

@@ -1,4 +1,5 @@
-//! Meshes of a size far from 1, or far from the origin, have the map that they have elsewhere, and their files lie where they do.
+//! Tests that meshes of a size far from 1, or far from the origin, have the same map as elsewhere, and that their output files have the
+//! size and place of the given ones.
 
 use crate::job::{Files, run};
 use conemap::export;
@@ -10,7 +11,7 @@ use conemap::monitor::Silent;
 use conemap::pipeline::{Choices, MapResult, PipelineOptions};
 use glam::DVec3;
 
-/// A mesh file scaled and moved.
+/// The file of a mesh that is scaled and moved.
 fn moved(file: &[u8], factor: f64, shift: DVec3) -> Vec<u8> {
     let soup = read_mesh(file).unwrap();
     let positions: Vec<DVec3> = soup.positions.iter().map(|p| *p * factor + shift).collect();
@@ -35,8 +36,8 @@ fn a_map_does_not_depend_on_size_and_place() {
     let options: PipelineOptions = Choices { own_cones: Some(0), ..Choices::default() }.into();
     let near = DVec3::new(1e8, -1e8, 2e8);
     let (_, usual) = run(&files, &options, &mut Silent);
-    // Powers of two change no digit, so that nothing but the size could change the map. A shift changes the last digits, and with
-    // them which of nearly equal ways the relaxation goes: 0.2 % of the energy.
+    // Scaling by powers of two changes no digit, so that nothing but the size could change the map. A shift changes the last digits, and
+    // with them the choice of the relaxation between nearly equal ways, by 0.2 % of the energy.
     let sizes = [2.0_f64.powi(-300), 2.0_f64.powi(300)];
     let cases = [(sizes, [DVec3::ZERO; 2], 1e-12, 1e-6), ([1.0, 1.0], [near, -near], 1e-2, 1e-4)];
     for (factors, shifts, change, tolerance) in cases {
@@ -48,7 +49,7 @@ fn a_map_does_not_depend_on_size_and_place() {
         let [there, here] = [&result, &usual].map(|result| result.report.distortion.energy);
         assert!((there / here - 1.0).abs() < change, "{there} {here}");
 
-        // The pictured source lies where the file has it, and the images where the target is.
+        // The source in the GLB lies where its file has it, and the source in the target's shape where the target lies.
         let glb = read_mesh(&output(&job, &result, OutputKind::Glb)).unwrap();
         let shape = read_mesh(&output(&job, &result, OutputKind::SourceShapeObj)).unwrap();
         for (written, file, factor) in [(&glb, &far.source, factors[0]), (&shape, &far.target, factors[1])] {

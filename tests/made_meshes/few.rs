@@ -1,4 +1,4 @@
-//! Few landmarks on two poses whose map is known: the program's own cones.
+//! Tests of the program's own cones, with few landmarks on two poses whose true map is known.
 
 use crate::fixtures;
 use crate::theorems::{farthest_landmarks, maps_with_and_without_own_cones};
@@ -17,7 +17,7 @@ fn own_cones_lower_the_distortion_of_eight_landmarks() {
     assert!(own < 0.007 && own < 0.7 * none, "{own} of the root of the area, {none} without");
 }
 
-/// The coarse levels of small meshes are the meshes themselves, with all that a round of own cones inserts.
+/// The coarse levels of small meshes are the meshes themselves, with all points that a round of own cones inserts.
 #[test]
 fn small_meshes_take_own_cones_in_several_rounds() {
     let [source, target] = [

@@ -1,4 +1,4 @@
-//! A map that is asked for before it is done: whole and certified at any time.
+//! Tests that a map that is asked for before its relaxation ends is whole and certified at any time.
 
 use conemap::demo;
 use conemap::landmarks::Landmarks;
@@ -8,14 +8,14 @@ use conemap::monitor::{Cancelled, Monitor, Stage, Step};
 use conemap::pipeline::{MapInput, MapResult, PipelineOptions, Warning, run};
 use glam::DVec3;
 
-/// Wants a result from the n-th step on.
+/// A monitor that wants the result from the n-th step on.
 #[derive(Default)]
 struct AskAt {
     steps: usize,
     limit: usize,
-    /// Steps up to the certificate; the textures' flows come after it.
+    /// The number of steps up to the certificate; the flows for the textures come after it.
     relaxed: usize,
-    /// By relaxation.
+    /// The energies of the steps of each relaxation.
     energies: Vec<Vec<f64>>,
 }
 
@@ -44,7 +44,7 @@ impl Monitor for AskAt {
     }
 }
 
-/// The map that is asked for at the n-th step, certified and told as stopped early.
+/// The map that is asked for at the n-th step; checks that it is certified and reported as finished early.
 fn asked_at(input: MapInput<'_>, limit: usize) -> (MapResult, AskAt) {
     let mut monitor = AskAt { limit, ..AskAt::default() };
     let result = run(input, &PipelineOptions::default(), &mut monitor)
@@ -58,12 +58,12 @@ fn asked_at(input: MapInput<'_>, limit: usize) -> (MapResult, AskAt) {
     (result, monitor)
 }
 
-/// The energies of maps that are asked for at many times: none is much better than the full one, and earlier ones are not
-/// better than later ones.
+/// The energies of maps that are asked for at many times. Checks that none is much lower than that of the full map, and that earlier maps
+/// are not better than later ones.
 fn check(input: MapInput<'_>, limits: impl Fn(usize) -> Vec<usize>) -> Vec<f64> {
     let (full, all) = asked_at(input, usize::MAX);
     let least = full.report.distortion.energy;
-    // The energy falls in each relaxation, but for what the barrier takes.
+    // The energy falls in each relaxation, but for the share of the barrier.
     assert!(all.energies.len() > 1);
     for energies in &all.energies {
         assert!(energies.windows(2).all(|w| w[1] < w[0] * 1.001), "{energies:?}");

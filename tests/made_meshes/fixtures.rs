@@ -11,7 +11,7 @@ use conemap::pipeline::GroundTruth;
 use conemap::remesh::{Noise, Options, perturbed, remesh};
 use glam::DVec3;
 
-/// A demo as it is.
+/// A demo with its landmarks.
 pub fn demo(id: &str) -> Case {
     let demo = demo::build(id).unwrap_or_else(|| panic!("there is a demo {id}"));
     let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &demo.landmarks).unwrap();
@@ -24,12 +24,12 @@ pub fn demo(id: &str) -> Case {
     }
 }
 
-/// The three small demos, of which the tests know much; the others are four times as large.
+/// The three small demos; the others are four times as large.
 pub fn demos() -> Vec<Case> {
     ["horse-cat", "poses", "sphere-tetrahedron"].map(demo).into()
 }
 
-/// The mesh bent sideways along its length, vertex i being vertex i.
+/// The mesh bent sideways along its length; vertex i corresponds to vertex i.
 pub fn bent(mesh: &SurfaceMesh) -> SurfaceMesh {
     let bend = |p: &DVec3| {
         let (angle, radius) = (0.25 * p.x, 4.0 - p.z);
@@ -38,7 +38,7 @@ pub fn bent(mesh: &SurfaceMesh) -> SurfaceMesh {
     mesh.with_positions(mesh.positions().iter().map(bend).collect())
 }
 
-/// The surface with other triangles, and the vertices nearest to the given ones, each taken once.
+/// The surface in other triangles, and its vertices nearest to the given ones, each taken once.
 fn remeshed(mesh: &SurfaceMesh, faces: usize, vertices: &[VertexId]) -> (SurfaceMesh, Vec<VertexId>) {
     let new = remesh(mesh, &Options::to_faces(faces), &mut Silent).unwrap().mesh;
     let mut taken = Vec::new();
@@ -50,7 +50,7 @@ fn remeshed(mesh: &SurfaceMesh, faces: usize, vertices: &[VertexId]) -> (Surface
     (new, taken)
 }
 
-/// A demo with other triangles, so many on the source and the target.
+/// A demo in other triangles, with the given numbers of faces on source and target.
 pub fn remeshed_demo(id: &str, faces: [usize; 2]) -> Case {
     let Case { source, target, landmarks, ground_truth, .. } = demo(id);
     let (source, from) = remeshed(&source, faces[0], &landmarks.source.raw);
@@ -59,7 +59,7 @@ pub fn remeshed_demo(id: &str, faces: [usize; 2]) -> Case {
     Case { name: format!("{id} with {faces:?} faces"), source, target, landmarks, ground_truth }
 }
 
-/// A demo with every vertex moved, by seed, so that its triangles are uneven and its skin is rough.
+/// A demo with every vertex moved at random, so that its triangles are uneven and its surface is rough.
 pub fn rough_demo(id: &str) -> Case {
     let case = demo(id);
     let [source, target] = [(&case.source, 1), (&case.target, 2)]
@@ -67,7 +67,7 @@ pub fn rough_demo(id: &str) -> Case {
     Case { name: format!("rough {id}"), source, target, ..case }
 }
 
-/// The horse, and the same surface elsewhere, larger and with each triangle split into four: the first vertices correspond.
+/// The horse, and the same surface moved, enlarged and with each triangle split into four; the first vertices correspond.
 pub fn split_horse() -> Case {
     let Case { source, landmarks, .. } = demo("horse-cat");
     let split = midpoint_subdivision(&source);
@@ -80,7 +80,7 @@ pub fn split_horse() -> Case {
 /// The horse, and the same horse with its front turned to the side: vertex i corresponds to vertex i.
 pub fn bent_horse() -> Case {
     let Case { source, landmarks, .. } = demo("horse-cat");
-    // From the middle of the body on towards the nose, around a vertical axis.
+    // The bend begins at the middle of the body and grows towards the nose, around a vertical axis.
     let bent = |p: &DVec3| {
         let along = ((p.x - 0.1) / 0.9).clamp(0.0, 1.0);
         let angle = 0.7 * along * along * (3.0 - 2.0 * along);

@@ -1,4 +1,4 @@
-//! Geodesic distances on meshes that no tool would be proud of: bounds that hold whatever the triangles are.
+//! Tests of geodesic distances on meshes with bad triangles, by bounds that hold for triangles of any shape.
 
 use crate::distance_bounds::check_bounds;
 use crate::exact_geodesics::exact_distances;
@@ -48,7 +48,7 @@ fn slivers_and_needles_do_not_change_distances() {
         for a in 0..6_u32 {
             let found = distances(&mesh, &[VertexId(a)]);
             for b in (0..6_u32).filter(|&b| b != a) {
-                // Neighbours along an edge, opposite corners across two faces.
+                // Neighbours are an edge apart, opposite corners lie across two faces.
                 let known = if a / 2 == b / 2 { 6.0_f64.sqrt() } else { 2.0_f64.sqrt() };
                 let found = found[VertexId(b)];
                 assert!((found - known).abs() < 1e-5 * known, "cut {number}: {a} to {b}: {found} {known}");

@@ -1,4 +1,4 @@
-//! The pictures that an OBJ file names beside it, in the GLB that the command line writes.
+//! Tests that the pictures that an OBJ file names are in the GLB that the command line writes.
 
 use crate::command_line::{conemap, errors, folder};
 use crate::glb_look::{COAT, EYE, Glb, ball, egg, landmarks, pictured};

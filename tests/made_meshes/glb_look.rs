@@ -1,5 +1,5 @@
-//! The look of the user's own files in the GLB of a map: every place in the target's pictures is that of the image point, and pictures
-//! stay as they are, byte for byte.
+//! Tests of the user's own colours and pictures in the GLB of a map: every place in the target's pictures is that of the image point, and
+//! pictures stay the same byte for byte.
 
 use conemap::export::vertex_image::Direction;
 use conemap::export::{obj, ply};
@@ -17,7 +17,7 @@ use conemap::pipeline::{Choices, PipelineOptions};
 use glam::{DVec2, DVec3};
 use serde_json::Value;
 
-/// Files that begin as pictures; nothing here decodes them.
+/// Bytes that begin like files of pictures; the tests never decode them.
 pub const COAT: &[u8] = b"\x89PNG coat";
 pub const EYE: &[u8] = b"\xff\xd8\xff\xe0 eye";
 const WEBP: &[u8] = b"RIFF....WEBP skin";
@@ -32,7 +32,8 @@ pub fn egg() -> SurfaceMesh {
     sphere.with_positions(sphere.positions().iter().map(|p| *p * DVec3::new(1.0, 1.3, 0.9)).collect())
 }
 
-/// The place of a face's corner in its picture, beyond it too: behind the equator elsewhere, so that there is a seam.
+/// The place of a face's corner in its picture, which may lie beyond the picture. It is shifted on the half with negative z, so that there
+/// is a seam at the equator.
 fn place(mesh: &SurfaceMesh, face: usize, corner: usize) -> DVec2 {
     let points = mesh.corners(face.into());
     let shift = if points.iter().map(|p| p.z).sum::<f64>() < 0.0 { 3.5 } else { 0.0 };
@@ -40,13 +41,13 @@ fn place(mesh: &SurfaceMesh, face: usize, corner: usize) -> DVec2 {
     DVec2::new(0.7 * p.x + 0.2 * p.z + shift, 0.5 * p.y - 0.3)
 }
 
-/// The picture of a face: another one where x is large.
+/// The picture of a face; faces with large x have another one.
 fn picture(mesh: &SurfaceMesh, face: usize) -> &'static [u8] {
     let is_eye = mesh.corners(face.into()).iter().map(|p| p.x).sum::<f64>() > 1.5;
     if is_eye { EYE } else { COAT }
 }
 
-/// The mesh with places in two pictures.
+/// An OBJ file of the mesh with places in two pictures.
 pub fn pictured(mesh: &SurfaceMesh) -> Vec<u8> {
     let mut text = String::from("mtllib egg.mtl\n") + &String::from_utf8(obj::mesh(mesh)).unwrap();
     text.truncate(text.find("f ").unwrap());
@@ -147,7 +148,7 @@ impl Glb {
     }
 }
 
-/// At points inside the triangles of the file the places in the pictures are those of the images by the map.
+/// Checks at points inside the triangles of a file that the places in the pictures are those of the images under the map.
 fn expect_places_of_images(bytes: &[u8], taken: &TakenMap<'_>) {
     let (glb, source, target) = (Glb::new(bytes), ball(), egg());
     let surface = SurfaceIndex::new(&source);
@@ -160,7 +161,7 @@ fn expect_places_of_images(bytes: &[u8], taken: &TakenMap<'_>) {
             let points = corners.map(|v| DVec3::from_slice(&positions[3 * v..3 * v + 3]));
             let places = corners.map(|v| DVec2::from_slice(&uvs[2 * v..2 * v + 2]));
             let area = 0.5 * (points[1] - points[0]).cross(points[2] - points[0]).length();
-            // f32 does not tell on which side of a seam the inside of a thinner one lies.
+            // In f32 it is not certain on which side of a seam a thinner triangle lies.
             if area < 1e-4 {
                 continue;
             }
@@ -172,7 +173,7 @@ fn expect_places_of_images(bytes: &[u8], taken: &TakenMap<'_>) {
                 let face = image.face.index();
                 let expected: DVec2 = (0..3).map(|k| place(&target, face, k) * image.barycentric[k]).sum();
                 let written: DVec2 = (0..3).map(|k| places[k] * weights[k]).sum();
-                // glTF's rows go down.
+                // In glTF the rows of a picture go down.
                 let written = DVec2::new(written.x, 1.0 - written.y);
                 assert!(written.distance(expected) < 2e-5, "{written} {expected}");
                 assert_eq!(file, picture(&target, face));
@@ -198,7 +199,7 @@ fn the_places_in_the_targets_pictures_are_those_of_the_images() {
         let bytes = taken.output(OutputKind::Glb).unwrap();
         assert_eq!(Glb::new(&bytes).primitives().len(), 2);
         expect_places_of_images(&bytes, &taken);
-        // Nothing turns into its mirror image.
+        // A body cannot be morphed into a mirror image.
         if image == TargetImage::AsGiven {
             expect_places_of_images(&taken.morph_glb(&mut Silent).unwrap(), &taken);
         }
@@ -221,13 +222,13 @@ fn colours_of_the_source_are_written_where_the_target_has_none() {
     let bytes = job.taken(&map).wearing(&look).output(OutputKind::Glb).unwrap();
     let glb = Glb::new(&bytes);
     assert_eq!((glb.primitives().len(), glb.document.get("images")), (1, None));
-    // What is read of the file again are the colours of the source where both agree, and none but these and those between.
+    // The colours read from the file again are those of the source's vertices, and mixtures of these between them.
     let read = appearance::read(&bytes, &read_mesh(&bytes).unwrap(), None).look.unwrap();
     let mut colours: Vec<[u8; 3]> = read.corners.iter().flatten().map(|corner| corner.colour).collect();
     colours.sort_unstable();
     colours.dedup();
     assert!(colours.contains(&[255, 51, 0]) && colours.contains(&[0, 102, 255]));
-    // Between both the shares of red and blue sum to 1.
+    // In the mixtures the shares of red and blue sum to 1.
     assert!(
         colours.iter().all(|[r, _, b]| (u16::from(*r) + u16::from(*b)).abs_diff(255) <= 1),
         "{colours:?}"
@@ -265,7 +266,7 @@ fn without_colours_or_with_other_files_the_checkerboard_stays() {
     let set = companion(&target);
     let cases: [[LookFiles<'_>; 2]; 3] = [
         [file(&source, None), file(&target, None)],
-        // Not the files of the meshes.
+        // These are not the files of the meshes.
         [file(&target, set.as_deref()), file(&source, None)],
         [file(&source, None), file(&target, Some(b"<script>"))],
     ];
@@ -279,7 +280,7 @@ fn without_colours_or_with_other_files_the_checkerboard_stays() {
     assert_eq!(job.taken(&map).wearing(&look).output(OutputKind::Glb).unwrap(), bare);
 }
 
-/// The mesh as PLY with places by vertex.
+/// A PLY file of the mesh with places in a picture by vertex.
 fn ply_with_places(mesh: &SurfaceMesh) -> Vec<u8> {
     let column = |name: &str, value: fn(DVec3) -> f64| conemap::io::vertex_table::Column {
         name: name.into(),

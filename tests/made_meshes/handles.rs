@@ -1,4 +1,4 @@
-//! Handles: sums of tori in random triangulations, by seed, and a ball with a small one.
+//! Tests of handles: connected sums of tori in random triangulations, by seed, and a ball with a small handle.
 
 use crate::repair::{is_sound, numbers_are_the_files};
 use conemap::job::{Job, JobError, JobFiles, MeshFaults, ReadOptions};
@@ -20,7 +20,7 @@ fn cut(soup: &PolygonSoup) -> Result<RepairedMesh, RepairRefusal> {
     repaired(soup, &RepairOptions { handles: Handles::Cut, ..RepairOptions::default() }, &mut Silent)
 }
 
-/// The handles that a refusal tells.
+/// The handles that the refusal of a soup lists.
 fn refused(soup: &PolygonSoup) -> Vec<Handle> {
     match repaired(soup, &RepairOptions::default(), &mut Silent) {
         Err(RepairRefusal::Handles(handles)) => handles,
@@ -45,7 +45,7 @@ impl Shapes {
         ((self.0.unit() * n as f64) as usize).min(n - 1)
     }
 
-    /// A torus, shaken.
+    /// A torus with vertices moved at random.
     fn torus(&mut self) -> PolygonSoup {
         let mut soup = PolygonSoup::from(&torus(4 + self.below(9), 4 + self.below(9)));
         let scale = 0.3 + 2.0 * self.0.unit();
@@ -55,7 +55,7 @@ impl Shapes {
         soup
     }
 
-    /// Takes a triangle of each away and makes their corners one.
+    /// The connected sum: removes a triangle of each surface and merges their corners.
     fn sum(&mut self, one: &PolygonSoup, other: &PolygonSoup) -> PolygonSoup {
         let (mut sum, mut other) = (one.clone(), other.clone());
         let [k, l] = [&sum, &other].map(|soup| soup.polygons.len()).map(|n| self.below(n));
@@ -71,7 +71,7 @@ impl Shapes {
         sum
     }
 
-    /// Divides faces at points inside of them.
+    /// Divides random faces at points inside them.
     fn divide(&mut self, soup: &mut PolygonSoup) {
         for _ in 0..self.below(40) {
             let f = self.below(soup.polygons.len());
@@ -117,7 +117,7 @@ impl Shapes {
     }
 }
 
-/// The length of a loop over vertices of a soup; its edges are there.
+/// The length of a loop over vertices of a soup; checks that its edges exist.
 fn loop_length(soup: &PolygonSoup, vertices: &[usize]) -> f64 {
     let edges: FxHashSet<[u32; 2]> = soup
         .polygons
@@ -149,7 +149,7 @@ fn sums_of_tori_become_balls_and_nothing_else_changes() {
         let size = surface.area().sqrt();
         let along = loop_length(&given, &found[0].vertices);
         assert!((along - found[0].loop_length * size).abs() < 1e-9 * along, "seed {seed}");
-        // All faces of the file stay, and the others are the walls, each seen from two sides.
+        // All faces of the file stay, and the others are the walls that close both sides of each cut.
         let is_given = |f: &FaceId| checked.file_from_face(*f).index() < given.polygons.len();
         let (skin, walls): (Vec<_>, Vec<_>) = surface.faces().partition(is_given);
         assert_eq!(skin.len(), given.polygons.len());
@@ -160,7 +160,7 @@ fn sums_of_tori_become_balls_and_nothing_else_changes() {
         let share = found.iter().map(|handle| handle.area_share).sum::<f64>();
         assert!((area(&walls) / surface.area() - share).abs() < 1e-9);
         assert!((mesh.report.cap_share - share).abs() < 1e-9, "{} {share}", mesh.report.cap_share);
-        // Vertices come twice along the loops only.
+        // Only the vertices on loops are doubled.
         let on_loops: FxHashSet<usize> = found.iter().flat_map(|h| h.vertices.iter().copied()).collect();
         let unused = 3 * (genus - 1);
         assert_eq!(checked.vertex_from_file.iter().flatten().count(), given.positions.len() - unused);
@@ -178,7 +178,7 @@ fn sums_of_tori_become_balls_and_nothing_else_changes() {
 
 #[test]
 fn the_loop_around_the_tube_or_the_tunnel_is_the_shorter_one() {
-    // Radii 2 and 1: the tunnel's circle is as long as the tube's, and fewer edges cut it shorter.
+    // With the radii 2 and 1 the circle of the tunnel is as long as that of the tube, and the one with fewer edges is shorter.
     for (around, tube) in [(12, 8), (8, 12)] {
         let given = PolygonSoup::from(&torus(around, tube));
         let mesh = cut(&given).unwrap();
@@ -276,7 +276,7 @@ fn open_surfaces_with_handles_are_capped_and_cut() {
     assert!((mesh.report.cap_share - share).abs() < 1e-9, "{} {share}", mesh.report.cap_share);
 }
 
-/// Stops at the first report.
+/// A monitor that stops at the first report.
 struct Impatient;
 
 impl Monitor for Impatient {

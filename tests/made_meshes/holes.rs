@@ -1,4 +1,4 @@
-//! Meshes with holes: a known bend of a body, punched and capped, against the closed pair.
+//! Tests of meshes with holes: a body and a bent copy, whose true map is known, punched and capped, compared with the closed pair.
 
 use crate::common::farthest_points;
 use crate::fixtures;
@@ -10,15 +10,15 @@ use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
 use conemap::pipeline::{CapFaces, GroundTruth, MapInput, MapResult, PipelineOptions, run};
 
-/// A horse and the same horse bent sideways along its length, vertex i being vertex i, with the hole that one of them gets.
+/// A horse and the same horse bent sideways along its length (vertex i corresponds to vertex i), with the hole that one of them gets.
 struct Poses {
     horse: SurfaceMesh,
     bent: SurfaceMesh,
-    /// What is taken away: the vertices near the end of a leg.
+    /// Whether each vertex is near the end of a leg, where the hole is made.
     is_gone: Vec<bool>,
     /// The vertices of the rest of the leg.
     beside: Vec<VertexId>,
-    /// Vertices far from each other that stay.
+    /// Vertices far from each other that the hole leaves.
     landmarks: Vec<VertexId>,
 }
 
@@ -34,7 +34,7 @@ impl Poses {
         Self { horse, bent, is_gone, beside, landmarks }
     }
 
-    /// Whether a face is taken away: all of its corners are.
+    /// Whether the hole takes a face, that is, all of its corners.
     fn is_removed(&self, corners: &[VertexId; 3]) -> bool {
         corners.iter().all(|v| self.is_gone[v.index()])
     }
@@ -62,7 +62,7 @@ impl Poses {
         run(input, options, &mut Silent).unwrap()
     }
 
-    /// Mean distance of the images of the rest of the leg from their true places, in units of the root of the area.
+    /// The mean distance of the images of the rest of the leg from their true places, in units of the root of the area.
     fn error(&self, result: &MapResult, target: &SurfaceMesh) -> f64 {
         let scale = 1.0 / self.bent.area().sqrt();
         let distance = |v: &VertexId| {
@@ -73,7 +73,7 @@ impl Poses {
     }
 }
 
-/// The faces of a mesh that stay, capped.
+/// The mesh of the faces that are kept, with its holes capped.
 fn capped(mesh: &SurfaceMesh, is_kept: impl Fn(&[VertexId; 3]) -> bool) -> CheckedMesh {
     let kept = mesh.triangles().iter().filter(|corners| is_kept(corners));
     let soup = PolygonSoup {
@@ -106,7 +106,7 @@ fn a_hole_does_not_pull_the_skin_around_it() {
     ];
     assert!(errors[0] < errors[1] + 0.003 && errors[0] < 0.5 * errors[2], "{errors:?}");
 
-    // The skin without a partner is what was taken away.
+    // The skin without a partner is as much as the hole took from the other mesh.
     let removed = poses.horse.faces().filter(|&f| poses.is_removed(&poses.horse.triangles()[f]));
     let share = removed.map(|f| poses.horse.face_area(f)).sum::<f64>() / poses.horse.area();
     assert!((0.01..0.1).contains(&share), "{share}");
@@ -114,7 +114,7 @@ fn a_hole_does_not_pull_the_skin_around_it() {
     assert!((coverage.source - (1.0 - share)).abs() < 0.002, "{coverage:?} {share}");
     assert!(coverage.target > 0.998, "{coverage:?}");
     assert_eq!(closed.report.coverage, None);
-    // What is pressed into the cap is not measured.
+    // The measures leave out skin that is mapped into the cap.
     let [own, whole] = [&weighted, &closed].map(|result| &result.report.distortion);
     assert!(own.energy >= 4.0 && own.energy < 1.01 * whole.energy, "{own:?}");
     let in_cap = weighted.triangle_distortion.iter().filter(|t| open.is_cap(t.target_face));

@@ -1,5 +1,5 @@
-//! A job from files to a map: the stages it passes, and what is left where something beside the map fails. On the program's own
-//! demos, so that it runs everywhere.
+//! Tests of a job from files to a map: the stages that it passes, and the results that remain where something beside the map fails. They
+//! run on the program's own demos, and so everywhere.
 
 use conemap::cone_metric::FlowOptions;
 use conemap::demo;
@@ -16,7 +16,7 @@ use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Progress, Silent, Stage, Step};
 use conemap::pipeline::{Base, Borders, Choices, MapResult, Method, PipelineOptions, Warning};
 
-/// Files of a job.
+/// The files of a job.
 pub struct Files {
     pub source: Vec<u8>,
     pub target: Vec<u8>,
@@ -24,7 +24,7 @@ pub struct Files {
 }
 
 impl Files {
-    /// Those of a demo, with its first landmarks.
+    /// The files of a demo, with its first landmarks.
     pub fn of_demo(id: &str, landmarks: usize) -> Self {
         let demo = demo::build(id).unwrap();
         let pairs = demo.landmarks.iter().take(landmarks);
@@ -37,7 +37,7 @@ impl Files {
         Self { source, target, landmarks: landmark_file::write(&file) }
     }
 
-    /// Takes other landmarks, pairs of vertices.
+    /// Replaces the landmarks by other pairs of vertices.
     pub fn set_landmarks(&mut self, pairs: &[[u32; 2]]) {
         let pairs = pairs.iter().map(|pair| pair.map(LandmarkPoint::Vertex)).collect();
         self.landmarks = landmark_file::write(&LandmarkFile { pairs, ..LandmarkFile::default() });
@@ -50,7 +50,8 @@ impl Files {
     }
 }
 
-/// Remembers each stage once, as often as it is begun anew, with the fractions told in it.
+/// A monitor that lists the stages in their order, each with the fractions reported in it; a stage that is begun several times in a row is
+/// listed once.
 #[derive(Default)]
 struct Recorder {
     stages: Vec<(Stage, Vec<f64>)>,
@@ -114,7 +115,7 @@ fn a_run_of_any_kind_passes_the_stages_that_are_told_in_their_order() {
     check_stages("horse-cat", runs);
 }
 
-/// `runs` are a name, how many landmarks of the demo are taken, and the options.
+/// Each of `runs` has a name, the number of the demo's landmarks that are taken, and the options.
 fn check_stages<const N: usize>(demo: &str, runs: [(&str, usize, PipelineOptions); N]) {
     for (name, landmarks, options) in runs {
         let files = Files::of_demo(demo, landmarks);
@@ -126,7 +127,7 @@ fn check_stages<const N: usize>(demo: &str, runs: [(&str, usize, PipelineOptions
         assert!(plan.is_sorted_by_key(|planned| planned.stage), "{name}: {plan:?}");
         assert!(plan.iter().all(|planned| planned.time > 0.0), "{name}: {plan:?}");
 
-        // The bar never rests for long: no step of any stage takes it back, or far ahead.
+        // No step of any stage moves the bar back, or far ahead, so that it never rests for long.
         let mut progress = Progress::new(plan);
         let mut before = 0.0;
         for (stage, fractions) in &recorder.stages {
@@ -172,7 +173,7 @@ fn a_soft_landmark_settles_within_its_radius_and_the_map_takes_it_there() {
     let report = serde_json::to_value(job.report(&result)).unwrap();
     assert_eq!(report["settled"].as_array().map(Vec::len), Some(1));
 
-    // What it settled to is an ordinary landmark.
+    // The point where it settled can be given as an ordinary landmark.
     let mut pairs = held.pairs.clone();
     pairs[SOFT][1] = settled.point;
     files.landmarks = landmark_file::write(&LandmarkFile { pairs, ..held });
@@ -182,7 +183,7 @@ fn a_soft_landmark_settles_within_its_radius_and_the_map_takes_it_there() {
     assert!((first / second - 1.0).abs() < 1e-6, "{first} {second}");
 }
 
-/// The search sees the mirror image of the target; what was given is told of the target's file all the same.
+/// The search works on the mirror image of the target; the given points are reported in the numbers of the target's file all the same.
 #[test]
 #[ignore = "long: run by `cargo xtask test --all`"]
 fn given_points_are_told_of_the_file_where_the_target_is_mirrored() {
@@ -210,7 +211,7 @@ fn given_points_are_told_of_the_file_where_the_target_is_mirrored() {
     }
 }
 
-/// A flow that may take no step does not converge.
+/// Options with a flow that may take no step, and so does not converge.
 fn without_flow() -> PipelineOptions {
     let options = PipelineOptions::default();
     PipelineOptions { flow: FlowOptions { max_steps: 0, ..options.flow }, ..options }
@@ -230,7 +231,7 @@ fn a_map_stands_where_no_texture_can_be_made() {
     };
     assert!(missing(MeshSide::Source) && missing(MeshSide::Target), "{:?}", bare.report.warnings);
     assert!(whole.report.warnings.iter().all(|w| !matches!(w, Warning::NoConeMetric { .. })));
-    // All but the flows' numbers and the texture is the same.
+    // Everything but the numbers of the flows and the texture is the same.
     assert!(bare.report.certificate.as_ref().unwrap().bijective);
     assert_eq!(bare.target_from_source, whole.target_from_source);
     assert_eq!(bare.report.distortion.energy, whole.report.distortion.energy);
@@ -256,7 +257,7 @@ fn a_map_stands_where_no_texture_can_be_made() {
     );
 }
 
-/// The thesis' method has nothing without its flows.
+/// The thesis' method has no result without its flows.
 #[test]
 fn the_patchwise_map_needs_its_flows() {
     let files = Files::of_demo("sphere-tetrahedron", usize::MAX);
@@ -275,7 +276,7 @@ fn faults_name_their_file() {
         target: target.to_vec(),
         landmarks: landmarks.to_vec(),
     };
-    // An open sheet.
+    // This mesh is an open sheet.
     let open = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     for (files, file, code) in [
         (of(b"nothing", &good.target, &good.landmarks), JobFile::Source, "file"),
@@ -290,7 +291,7 @@ fn faults_name_their_file() {
     }
 }
 
-/// What the page sends: a name that is not known is no default.
+/// A name that is not known in the choices of the page is an error, and does not become the default.
 #[test]
 fn unknown_choices_are_errors() {
     let read = |json: &str| serde_json::from_str::<Choices>(json);

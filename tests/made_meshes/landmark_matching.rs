@@ -1,5 +1,5 @@
-//! Two bodies matched without a landmark, or with few: on the program's own animals limbs find the same partners however the meshes
-//! are turned, scaled or numbered.
+//! Tests of matching without landmarks, or with few: on the program's own animals limbs find the same partners however the meshes are
+//! turned, scaled or numbered.
 
 use conemap::demo::{self, Demo};
 use conemap::landmark_matching::{
@@ -12,7 +12,7 @@ use conemap::monitor::{Cancelled, Monitor, Silent, Step};
 use glam::{DQuat, DVec3};
 use typed_index_collections::TiVec;
 
-/// Fewer candidates than usual, to be quick.
+/// Options with fewer candidates than usual, to be quick.
 fn few() -> MatchOptions {
     MatchOptions { candidates: 3, symmetric: 1, without_orders: 1, changes: 2, ..MatchOptions::default() }
 }
@@ -29,7 +29,7 @@ fn name(demo: &Demo, side: usize, place: DVec3) -> &str {
     &demo.labels[nearest]
 }
 
-/// The limb of a landmark's name: its first two words; the end of a head may be its nose or an ear.
+/// The limb that a landmark's name says: its first two words, or "head" for nose, throat and ears, any of which may be the end of a head.
 fn limb(name: &str) -> String {
     if ["nose", "throat", "left ear", "right ear"].contains(&name) {
         return "head".to_owned();
@@ -42,7 +42,7 @@ fn limb(name: &str) -> String {
     }
 }
 
-/// The limbs of source and target that the best candidate takes to each other; `back` undoes what was done to the target.
+/// The limbs of source and target that the best candidate pairs; `back` undoes the change that was made to the target.
 fn limbs(
     demo: &Demo,
     found: &LandmarkMatch,
@@ -78,7 +78,7 @@ fn turned_back(p: DVec3) -> DVec3 {
         * ((p - DVec3::new(5.0, -7.0, 1.0)) / 3.0)
 }
 
-/// The mesh with its vertices numbered otherwise, and its faces in another order.
+/// The mesh with other numbers of its vertices, and its faces in another order.
 fn renumbered(mesh: &SurfaceMesh) -> SurfaceMesh {
     let n = mesh.vertex_count();
     // A step that shares no factor with n visits every number once.
@@ -104,7 +104,7 @@ fn with_one_landmark_every_limb_of_the_horse_finds_its_partner_on_the_cat() {
     assert!(found.candidates[1..].iter().all(|candidate| candidate.difference.is_some()));
 }
 
-/// The cat's long tail is much like the horse's neck, so that distances alone exchange head and tail.
+/// The cat's long tail resembles the horse's neck, so that distances alone would exchange head and tail.
 #[test]
 fn without_a_landmark_every_limb_of_the_horse_finds_its_partner_on_the_cat() {
     let demo = demo::build("horse-cat").unwrap();
@@ -145,7 +145,7 @@ fn on_the_mirror_image_left_and_right_are_those_of_the_image() {
 fn given_pairs_are_held_and_steer_the_rest() {
     let demo = demo::build("horse-cat").unwrap();
     let place = |label: &str| demo.labels.iter().position(|l| l.starts_with(label)).unwrap();
-    // Wrong on purpose: the left fore foot on the right one.
+    // This pair is wrong on purpose: it puts the left fore foot on the right one.
     let [left, right] = ["left fore", "right fore"].map(|label| demo.landmarks[place(label)]);
     let given = [[VertexId(left[0]), VertexId(right[1])]];
     let input = MatchInput { given: &given, ..MatchInput::new(&demo.source, &demo.target) };

@@ -1,4 +1,4 @@
-//! Maps that are saved and opened again, on the program's own demos: nothing is lost, and nothing is computed.
+//! Tests of maps that are saved and opened again, on the program's own demos: nothing is lost, and nothing is computed.
 
 use conemap::demo;
 use conemap::export;
@@ -39,7 +39,7 @@ fn mapped(meshes: [&SurfaceMesh; 2], pairs: Vec<[LandmarkPoint; 2]>, image: Targ
     Mapped { files, job, result, map, bytes }
 }
 
-/// The horse on the cat from points inside faces, so that both meshes are refined and cones of the program's own are added.
+/// The map of the horse onto the cat, with landmarks inside faces, so that both meshes are refined, and with own cones of the program.
 fn horse_cat() -> &'static Mapped {
     static MAP: OnceLock<Mapped> = OnceLock::new();
     MAP.get_or_init(|| {
@@ -55,7 +55,7 @@ fn horse_cat() -> &'static Mapped {
     })
 }
 
-/// A tetrahedral demo whose target's file is a mirror image.
+/// The map of the demo of sphere and tetrahedron, whose target's file is a mirror image.
 fn mirrored_demo() -> &'static Mapped {
     static MAP: OnceLock<Mapped> = OnceLock::new();
     MAP.get_or_init(|| {
@@ -75,7 +75,7 @@ fn open(mapped: &Mapped) -> OpenMap {
     OpenMap::read(MapFiles { map: &mapped.bytes, source, target }).unwrap()
 }
 
-/// The independent proof agrees with the certificate: with own cones and landmarks inside faces, and for a mirror image.
+/// The second certificate agrees with the first one, with own cones and landmarks inside faces, and for a mirror image.
 #[test]
 fn the_second_program_proves_the_map() {
     for (mapped, is_mirrored) in [(horse_cat(), false), (mirrored_demo(), true)] {
@@ -87,14 +87,14 @@ fn the_second_program_proves_the_map() {
         assert_eq!(proof.pieces, mapped.map.correspondence.pieces.len());
         assert_eq!(proof.landmarks.pairs, mapped.map.landmarks.pairs.len());
         assert!(proof.landmarks.largest_distance < 1e-12, "{proof:?}");
-        // With the meshes exchanged it is refused, and the mesh is named.
+        // With the meshes exchanged the file is refused, and the error names the mesh.
         let files = MapFiles { map: &mapped.bytes, source: target, target: source };
         let error = prove(files, &mut |_| ControlFlow::Continue(())).unwrap_err();
         assert_eq!((error.kind(), error.side()), ("other-mesh", Some(MeshSide::Source)));
     }
 }
 
-/// Words are the same, and numbers up to rounding.
+/// Checks that two texts have the same words, and the same numbers up to rounding.
 fn assert_same_text(a: &str, b: &str, kind: OutputKind) {
     let words = |text: &str| -> Vec<String> {
         text.split(|c: char| !(c.is_alphanumeric() || "+-.".contains(c))).map(str::to_owned).collect()
@@ -117,7 +117,7 @@ fn an_opened_map_gives_the_files_of_the_run() {
             let [a, b] = [run, opened].map(|map| map.output(kind).unwrap());
             assert!(!a.is_empty(), "{kind:?}");
             match kind {
-                // Weights that are exchanged and back may differ in the last digit.
+                // Weights that are exchanged twice may differ in the last digit.
                 OutputKind::Map | OutputKind::Glb => assert!(a.len().abs_diff(b.len()) < 64, "{kind:?}"),
                 OutputKind::SourceShapePly | OutputKind::TargetShapePly => {
                     let [a, b] = [a, b].map(|file| read_mesh(&file).unwrap());
@@ -134,7 +134,7 @@ fn an_opened_map_gives_the_files_of_the_run() {
         assert_eq!(mapped.map.landmarks, open.taken().map().landmarks);
         assert_eq!(serde_json::to_value(&mapped.result.report).unwrap(), open.taken().map().report);
     }
-    // Nothing is exchanged there: the very same bytes.
+    // In this map nothing is exchanged, so the bytes are the same.
     let mapped = horse_cat();
     assert!(open(mapped).taken().output(OutputKind::Map).unwrap() == mapped.bytes);
 }
@@ -168,7 +168,7 @@ fn vertices_go_where_the_run_sends_them_and_landmarks_to_their_partners() {
         let back = open.taken().vertex_images(Direction::TargetToSource);
         assert!(back.iter().all(Option::is_some));
         let target = open.meshes()[1];
-        // The run's meshes have the landmarks as further vertices after their own.
+        // The meshes of the run have the landmarks as further vertices after their own.
         for (image, point) in images.iter().flatten().zip(&mapped.result.target_from_source) {
             let Some(point) = point else { panic!("every vertex has an image") };
             let face = point.face;
@@ -219,7 +219,7 @@ fn every_point_has_an_image_and_comes_back() {
             for k in 0..2000_usize {
                 let face = FaceId::from((random.unit() * faces as f64) as usize);
                 let (a, b) = (random.unit(), random.unit());
-                // Inside, on edges, at vertices.
+                // The points lie inside faces, on edges and at vertices.
                 let weights = match k % 4 {
                     0 | 1 => [a, b, 1.0],
                     2 => [a, 0.0, 1.0],
@@ -238,7 +238,7 @@ fn every_point_has_an_image_and_comes_back() {
     }
 }
 
-/// The sides of a chart from its first corner, in its plane; the whole layout has area 1.
+/// The two sides of a chart from its first corner, in its plane; the whole layout has area 1.
 fn chart_vectors(layout: &FlatLayout, chart: FaceId) -> glam::DMat2 {
     let [a, b, c] = chart.halfedges().map(|h| layout.lengths[h]);
     let x = (a * a + c * c - b * b) / (2.0 * a);
@@ -270,7 +270,7 @@ fn both_meshes_lie_alike_on_the_flat_layout() {
                 assert!((share - 1.0).abs() < 1e-6, "chart {chart}: {share}");
             }
         }
-        // A source vertex and its image: the polygon of the target that holds it tells the same weights.
+        // For a source vertex, the polygon of the target that holds its image gives the same weights.
         let locator = conemap::surface_map::correspondence::PointLocator::new(surfaces, &map.correspondence);
         let target = &layout.drawings[1];
         let mut asked = 0;
@@ -294,7 +294,7 @@ fn both_meshes_lie_alike_on_the_flat_layout() {
                 })?;
                 let from = glam::DMat2::from_cols(at(1) - at(0), at(last) - at(0));
                 let onto = glam::DMat2::from_cols(flat(1) - flat(0), flat(last) - flat(0));
-                // Slivers tell nothing, and polygons beside the image belong to other parts of a face that was refined.
+                // Slivers are left out, and so are polygons beside the image, which belong to other parts of a face that was refined.
                 let holds = (0..corners.len()).all(|k| {
                     let (a, b) = (at(k), at((k + 1) % corners.len()));
                     (b - a).perp_dot(q - a) >= -1e-9
@@ -303,7 +303,7 @@ fn both_meshes_lie_alike_on_the_flat_layout() {
                     return None;
                 }
                 let found = flat(0) + onto * from.inverse() * (q - at(0));
-                // In the plane: weights of a thin chart tell less.
+                // The difference is measured in the plane, since weights in a thin chart are less exact.
                 let off = found - glam::DVec2::new(vertex.weights[1], vertex.weights[2]);
                 Some((chart_vectors(layout, p.chart) * off).length())
             });
@@ -337,7 +337,7 @@ fn shapes_are_meshes_of_the_other_one() {
                 (soup.positions.len(), soup.polygons.len()),
                 (own.positions.len(), own.polygons.len())
             );
-            // Not mirrored, the polygons are the file's own.
+            // Without mirroring the polygons are those of the file.
             if !open.meshes()[1].is_mirrored() {
                 assert_eq!(soup.polygons, own.polygons);
             }

@@ -1,4 +1,4 @@
-//! The whole way on the demos: what a user of the library may rely on.
+//! Tests of the whole pipeline on the demos, for properties that a user of the library may rely on.
 
 use crate::common::farthest_points;
 use crate::fixtures;
@@ -35,7 +35,7 @@ fn a_bent_horse_comes_near_the_true_map() {
     assert!(truth.mean < 0.004 && truth.mean <= truth.p95 && truth.p95 <= truth.max, "{truth:?}");
 }
 
-/// Moved, scaled and with other triangles a surface stays the same: the map is the known one, and nearly no distortion is left.
+/// A surface onto a moved, scaled copy in other triangles: the map is the known one, with nearly no distortion.
 #[test]
 fn a_moved_surface_with_other_triangles_has_an_isometry() {
     let case = fixtures::split_horse();

@@ -1,4 +1,4 @@
-//! Previews of a map that is being made.
+//! Tests of the previews of a map that is being made.
 
 use conemap::demo;
 use conemap::landmarks::{Landmarks, MeshSide};
@@ -6,7 +6,7 @@ use conemap::monitor::{Cancelled, MapPreview, Monitor, Silent, Stage, Step};
 use conemap::pipeline::{MapInput, PipelineOptions, run};
 use glam::DVec3;
 
-/// Looks at every preview.
+/// A monitor that looks at every preview.
 #[derive(Default)]
 struct Looker {
     stage: Option<Stage>,
@@ -29,8 +29,8 @@ impl Monitor for Looker {
     }
 }
 
-/// Previews come with the first coarse map and with each level, nearer and nearer to the map, and change nothing of it; also where
-/// the meshes change their roles for the work.
+/// Previews come with the first coarse map and with each level, approach the map, and do not change it; also where the computation
+/// exchanges the meshes.
 #[test]
 #[ignore = "long: run by `cargo xtask test --all`"]
 fn previews_come_near_the_map_and_do_not_change_it() {

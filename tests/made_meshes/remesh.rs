@@ -1,4 +1,4 @@
-//! Remeshing: counts, shapes, distances, sharp edges, and what carries points to the new mesh.
+//! Tests of remeshing: counts, shapes, distances, sharp edges, and points carried to the new mesh.
 
 use crate::remeshing::remeshed;
 use conemap::mesh::check::closed_genus_zero;
@@ -26,7 +26,7 @@ fn cube() -> SurfaceMesh {
 fn uneven() -> SurfaceMesh {
     let ball = icosphere(4);
     let pulled = |p: &DVec3| {
-        // Seen from a point inside: a ball still, with triangles of all sizes.
+        // The vertices are projected from another point onto the sphere, which gives triangles of all sizes.
         let place = (*p + DVec3::new(0.1, 0.6, -0.2)).normalize();
         place * (1.0 + 0.05 / (0.15 + (place - DVec3::X).length_squared()))
     };
@@ -43,7 +43,7 @@ fn round_surfaces_get_even_triangles_at_every_size() {
             let edges = report.edge_length;
             assert!(edges.deviation < 0.15 * edges.mean, "{name}: {report:?}");
             assert!(report.mean_min_angle > 48.0 && report.min_angle > 20.0, "{name}: {report:?}");
-            // A chord of the length of an edge, on a circle of radius 0.5.
+            // The bound is the sagitta of a chord of the length of an edge, on a circle of radius 0.5.
             let sagitta = 0.25 * edges.mean * edges.mean + 0.02 * edges.mean;
             let distance = report.distance;
             assert!(distance.to_original.max(distance.from_original) < 3.0 * sagitta, "{name}: {report:?}");
@@ -61,14 +61,14 @@ fn a_cube_keeps_its_edges_and_corners() {
         let corners = cube().positions().iter().filter(|c| mesh.positions().contains(c)).count();
         assert_eq!(corners, 8);
     }
-    // Without creases nothing holds the edges.
+    // Without creases the sharp edges of the cube are not kept.
     let options = Options { crease_angle: std::f64::consts::PI, ..Options::to_faces(900) };
     assert!(remeshed("smooth cube", &cube(), &options).report.distance.from_original > 1e-3);
 }
 
 #[test]
 fn a_thin_limb_keeps_its_end() {
-    // Of a length of ten edges and a fifth of an edge thick.
+    // The spike is ten edges long and a fifth of an edge thick.
     let ball = icosphere(5);
     let spiked = |p: &DVec3| {
         let along = ((p.y - 0.995) / 0.005).clamp(0.0, 1.0);
@@ -104,7 +104,7 @@ fn too_few_faces_are_refused() {
         let error = remesh(&icosphere(2), &Options::to_faces(faces), &mut Silent).unwrap_err();
         assert_eq!(error, Error::TooFewFaces { wanted: faces, reached: 4 });
     }
-    // No torus has fewer than 14.
+    // No torus has fewer than 14 triangles.
     let error = remesh(&torus(20, 10), &Options::to_faces(8), &mut Silent).unwrap_err();
     assert!(matches!(error, Error::TooFewFaces { wanted: 8, reached: 14.. }), "{error:?}");
 }
@@ -116,7 +116,7 @@ fn few_rounds_do_not_converge() {
     assert_eq!(error, Error::NotConverged { wanted: 5000, reached: 320, rounds: 0 });
 }
 
-/// Stops after some steps.
+/// A monitor that stops after some steps.
 struct Impatient {
     steps: usize,
     entered: Vec<Stage>,
@@ -182,7 +182,7 @@ fn variants_are_other_meshes_of_the_surface() {
     let mean = EdgeLengths::of(&ball).mean;
     for v in ball.vertices() {
         let step: DVec3 = noisy.positions()[v] - ball.positions()[v];
-        // The directions are in the tangent plane, that of the vertex' own normal.
+        // The steps lie in the tangent plane of the vertex.
         assert!(step.length() < 0.2 * 2.0_f64.sqrt() * 1.2 * mean);
         assert!(step.dot(ball.positions()[v]).abs() < 0.02 * mean);
     }
@@ -200,7 +200,7 @@ mod properties {
     proptest! {
         #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// Any body with noise on it, at any size: what every result must have holds.
+        /// For any body with noise on it, at any size, the checks of every result pass.
         #[test]
         fn every_result_is_a_mesh_of_the_surface(
             axes in [0.2_f64..2.0, 0.2_f64..2.0, 0.2_f64..2.0],

@@ -1,4 +1,4 @@
-//! Repair: broken meshes made from good ones, by seed and by hand.
+//! Tests of repair on broken meshes made from good ones, by seed and by hand.
 
 use crate::damage::{Damage, add, punch};
 use conemap::io::landmark_file::LandmarkPoint;
@@ -15,7 +15,7 @@ use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-/// With handles cut.
+/// Repairs a soup, with handles cut.
 fn repair_all(soup: &PolygonSoup) -> Result<RepairedMesh, RepairRefusal> {
     let options = RepairOptions { handles: Handles::Cut, ..RepairOptions::default() };
     repaired(soup, &options, &mut Silent)
@@ -29,7 +29,7 @@ fn signed_volume(mesh: &SurfaceMesh) -> f64 {
     mesh.faces().map(|f| mesh.corners(f)).map(|[p, q, r]| p.dot(q.cross(r)) / 6.0).sum()
 }
 
-/// A closed surface of genus 0 that a second repair leaves as it is.
+/// Checks that a repaired mesh is a closed surface of genus 0 that a second repair does not change.
 pub fn is_sound(mesh: &RepairedMesh) {
     let surface = &mesh.checked.mesh;
     assert_eq!(surface.euler_characteristic(), 2);
@@ -56,7 +56,7 @@ fn of_a_thousand_broken_meshes_each_is_closed_or_refused() {
                 is_sound(&mesh);
                 assert_eq!(mesh.report.fault.is_none(), closed_genus_zero(&soup).is_ok(), "seed {seed}");
                 numbers_are_the_files(&soup, &mesh.checked);
-                // What may be done beyond is not done where it is not needed.
+                // Repairs that are allowed but not needed are not made.
                 let all = repaired(&soup, &RepairOptions::everything(), &mut Silent).unwrap();
                 assert_eq!(
                     (all.checked.mesh.triangles(), &all.report),
@@ -75,12 +75,12 @@ fn of_a_thousand_broken_meshes_each_is_closed_or_refused() {
         };
         *outcomes.entry(outcome).or_default() += 1;
     }
-    // A sixth are of genus 1.
+    // A sixth of the meshes are of genus 1.
     assert!(outcomes["repaired"] > 600, "{outcomes:?}");
     assert!(outcomes.contains_key("genus"), "{outcomes:?}");
 }
 
-/// Each vertex of the mesh that has a number of the file is where it is there, and each face has its corners there.
+/// Checks that each vertex with a number of the file has its place there, and each face its corners.
 pub fn numbers_are_the_files(soup: &PolygonSoup, checked: &CheckedMesh) {
     let mesh = &checked.mesh;
     let close = |p: DVec3, q: DVec3| p.distance(q) < 1e-9;
@@ -135,7 +135,7 @@ fn a_hole_of_a_ball_gets_a_round_cap_of_good_triangles() {
     let surface = &mesh.checked.mesh;
     let caps: Vec<FaceId> = surface.faces().filter(|&f| mesh.checked.is_cap(f)).collect();
     assert_eq!(caps.len(), *faces);
-    // In a cap no landmark can be.
+    // A landmark cannot lie in a cap.
     let face = mesh.checked.file_from_face(caps[0]).0;
     let point = LandmarkPoint::OnFace { face, barycentric: [0.2, 0.3, 0.5] };
     let wrong = check_side(&mesh.checked, MeshSide::Source, &[[point; 2]]).unwrap_err();
@@ -146,7 +146,7 @@ fn a_hole_of_a_ball_gets_a_round_cap_of_good_triangles() {
     let (small, large): (Vec<_>, Vec<_>) =
         added.map(|v| surface.positions()[v]).partition(|p| p.distance(DVec3::Z) < 0.3);
     assert!(!small.is_empty() && large.len() > 10 && small.len() + large.len() < count / 10);
-    // The small one goes on as the ball, the large one is stretched over its rim.
+    // The small cap continues the ball; the large one is stretched over its rim.
     assert!(small.iter().all(|p| (p.length() - 1.0).abs() < 4e-3), "{small:?}");
     assert!(large.iter().all(|p| p.length() < 1.0 + 1e-9 && p.x < -0.8), "{large:?}");
     let angle = |f: &FaceId| {
@@ -161,7 +161,7 @@ fn a_hole_of_a_ball_gets_a_round_cap_of_good_triangles() {
     assert!(mean > 30.0 && caps.iter().all(|f| angle(f) > 5.0), "{mean}");
 }
 
-/// A pointed hat with a rim of so many vertices.
+/// A pointed hat whose rim has `rim` vertices.
 fn hat(rim: u32) -> PolygonSoup {
     let around = |k: u32| TAU * f64::from(k) / f64::from(rim);
     let mut positions: Vec<DVec3> =
@@ -177,7 +177,7 @@ fn a_rim_of_ten_thousand_edges_is_capped_in_proportion() {
     let mesh = repair(&hat).unwrap();
     is_sound(&mesh);
     let surface = &mesh.checked.mesh;
-    // Edges grow away from the rim, so that vertices are in proportion to it.
+    // The edges of a cap grow away from the rim, so that the number of vertices is in proportion to the rim.
     assert!((40_000..150_000).contains(&surface.face_count()), "{}", surface.face_count());
     let caps = surface.faces().filter(|&f| mesh.checked.is_cap(f));
     let area: f64 = caps.map(|f| surface.face_area(f)).sum();
@@ -197,7 +197,7 @@ fn loose_triangles_with_equal_corners_are_one_surface() {
     assert!(mesh.checked.vertex_from_file.iter().all(Option::is_some));
     assert!(mesh.checked.repaired_faces.is_none());
 
-    // Not quite equal ones only when asked.
+    // Vertices that are not quite equal are joined only when asked.
     let mut random = SplitMix::new(1);
     let shaken = |p: &DVec3| *p + 1e-6 * DVec3::from_array([0; 3].map(|_| random.unit()));
     loose.positions = loose.positions.iter().map(shaken).collect();
@@ -222,7 +222,7 @@ fn a_corner_on_an_edge_cuts_the_neighbour_and_opens_nothing() {
     let Change::DegenerateFaces { dropped, recut } = &mesh.report.changes[0] else { panic!() };
     assert_eq!((&dropped.first[..], recut.count), (&[81][..], 1));
     assert!((mesh.checked.mesh.area() - icosphere(1).area()).abs() < 1e-12);
-    // The faces that came in the neighbour's place have new numbers, and the neighbour's is gone.
+    // The faces in place of the divided neighbour have new numbers, and its number is unused.
     let is_made = |f: &FaceId| mesh.checked.file_from_face(*f).index() >= 82;
     let made: Vec<FaceId> = mesh.checked.mesh.faces().filter(is_made).collect();
     assert!(made.len() == 2 && made.iter().all(|&f| !mesh.checked.is_cap(f)));
@@ -233,7 +233,7 @@ fn a_corner_on_an_edge_cuts_the_neighbour_and_opens_nothing() {
     assert!(matches!(placed(84), Err(LandmarkError::MissingFace { faces: 82, .. })));
 }
 
-/// A box whose six sides are fans of their own. Two of them have their common edge cut into three and into five.
+/// A box whose six sides are fans with vertices of their own. Two of the sides divide their common edge into three and into five.
 fn box_with_a_seam(turned: DMat3) -> PolygonSoup {
     let corner = |k: usize| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64);
     let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
@@ -277,14 +277,15 @@ fn a_seam_with_other_vertices_on_its_sides_closes_without_a_cap() {
 
 #[test]
 fn a_face_without_area_that_is_missing_leaves_no_hole() {
-    // A corner of the neighbour on an edge of a face, whose other corner it has an edge with already.
+    // A vertex in the middle of an edge belongs to the faces on one side only, and the face without area that would close the gap is
+    // missing.
     let mut given = PolygonSoup::from(&icosphere(1));
     let [a, b, c] = given.polygons[3][..] else { panic!() };
     let place = |v: u32| given.positions[v as usize];
     let (middle, top) = (given.positions.len() as u32, given.positions.len() as u32 + 1);
     let [on_edge, above] = [0.5 * (place(a) + place(b)), (place(a) + place(b) + place(c)) / 3.0];
     given.positions.extend([on_edge, above]);
-    // The middle of the edge is a corner of this face's pieces, and the face beyond is whole.
+    // The middle of the edge is a corner of the faces on this side, and the face beyond is whole.
     given.polygons[3] = vec![a, middle, top];
     given.polygons.extend([vec![middle, b, top], vec![b, c, top], vec![c, a, top]]);
     let mesh = repair(&given).unwrap();
@@ -295,7 +296,7 @@ fn a_face_without_area_that_is_missing_leaves_no_hole() {
 
 #[test]
 fn walls_flaps_and_doubled_sheets_go() {
-    // Two tetrahedra on one triangle, its two sides both there: the wall goes.
+    // Two tetrahedra share a triangle that is given from both sides; this wall is removed.
     let positions = vec![DVec3::X, DVec3::Y, DVec3::ZERO, DVec3::Z, DVec3::new(0.3, 0.3, -1.0)];
     let above = [[0, 1, 3], [1, 2, 3], [2, 0, 3], [0, 2, 1]];
     let below = [[1, 0, 4], [2, 1, 4], [0, 2, 4], [0, 1, 2]];
@@ -306,7 +307,7 @@ fn walls_flaps_and_doubled_sheets_go() {
     assert_eq!(kinds(&mesh), ["duplicate_faces"]);
     assert_eq!((mesh.checked.mesh.vertex_count(), mesh.checked.mesh.face_count()), (5, 6));
 
-    // A wall with one side is cut off, and is no speck here.
+    // With one side of the wall only, the tetrahedra are separated, and neither is small enough to be a speck.
     let mut one_side = bodies.clone();
     one_side.polygons.pop();
     assert!(matches!(repair(&one_side), Err(RepairRefusal::Parts { count: 2, .. })));
@@ -315,7 +316,7 @@ fn walls_flaps_and_doubled_sheets_go() {
     is_sound(&mesh);
     assert_eq!(mesh.checked.mesh.face_count(), 6);
 
-    // A sheet that is all double stays once, and is a sheet then.
+    // Of a sheet whose faces are all double one copy stays, which is an open sheet.
     let sheet = PolygonSoup {
         positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE],
         polygons: vec![vec![0, 1, 2], vec![1, 3, 2], vec![2, 1, 0], vec![2, 3, 1]],
@@ -326,7 +327,7 @@ fn walls_flaps_and_doubled_sheets_go() {
 
 #[test]
 fn bodies_that_touch_come_apart() {
-    // Two boxes along one edge: four faces meet there.
+    // Two boxes share an edge, at which four faces meet.
     let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
     let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let positions: Vec<DVec3> = (0..8).map(corner).collect();
@@ -337,7 +338,7 @@ fn bodies_that_touch_come_apart() {
     };
     let mut boxes = cube.clone();
     add(&mut boxes, &cube, |p| p * DVec3::new(0.05, 0.05, 1.0) + DVec3::new(1.0, 1.0, 0.0));
-    // The edge 3-7 of the first is 8-12 of the second.
+    // The edge 3-7 of the first box is the edge 8-12 of the second.
     boxes.polygons.iter_mut().flatten().for_each(|v| {
         *v = match *v {
             8 => 3,
@@ -351,7 +352,7 @@ fn bodies_that_touch_come_apart() {
     assert_eq!(kinds(&mesh), ["split_edges", "split_vertices", "dropped_parts", "unused_vertices"]);
     assert!((mesh.checked.mesh.area() - 6.0).abs() < 1e-12);
 
-    // Two balls at one vertex, the small one a speck.
+    // Two balls share a vertex; the small one is a speck.
     let mut balls = PolygonSoup::from(&icosphere(2));
     let touch = balls.positions[7];
     let first = balls.positions.len() as u32;
@@ -383,7 +384,7 @@ fn what_cannot_be_repaired_is_told() {
         PolygonSoup { positions: vec![DVec3::ZERO; 3], polygons: vec![vec![0, 1, 2]], ..sheet.clone() };
     assert_eq!(refusal(&line), RepairRefusal::NothingLeft);
     assert_eq!(refusal(&PolygonSoup::default()), RepairRefusal::Fault(MeshFault::Empty));
-    // A band with half a twist.
+    // A band with half a twist is one-sided.
     let band = PolygonSoup {
         positions: (0..10)
             .map(|k| {

@@ -1,5 +1,5 @@
-//! A fixed sample of the hostile geometry that `cargo xtask torture` makes by the thousand: a certified map that a stranger proves,
-//! or a typed error with a sentence, after bounded work.
+//! Tests of a fixed sample of the hostile geometry that `cargo xtask torture` makes by the thousand: each case ends in a certified map that
+//! the second certificate proves, or in a typed error with a sentence, after bounded work.
 
 use crate::bounds::{Counter, MOST_QUESTIONS};
 use crate::hostile_geometry::{HostileCase, Kind, Size, case};
@@ -11,7 +11,7 @@ use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
 use glam::DVec3;
 
-/// The outcome of a small case, which must be one of those that may be.
+/// The outcome of a small case; fails where it is one that must never happen.
 fn outcome(kind: Kind, seed: u64) -> Outcome {
     let files = Files::from(case(kind, seed, Size::Small));
     let outcome = match mapped(&files, &mut Counter::up_to(MOST_QUESTIONS)) {
@@ -36,7 +36,7 @@ fn is_map(outcome: &Outcome) -> bool {
 fn hostile_shapes_end_in_a_proved_map_or_a_sentence() {
     let kinds = [Kind::Slivers, Kind::Pancakes, Kind::Noise, Kind::Rough];
     let outcomes: Vec<Outcome> = kinds.into_iter().map(|kind| outcome(kind, 1)).collect();
-    // Errors alone would be no answer.
+    // At least one case of the kind must have a map.
     assert!(outcomes.iter().any(is_map), "{outcomes:?}");
 }
 
@@ -55,7 +55,7 @@ fn hostile_landmarks_end_in_a_proved_map_or_a_sentence() {
     }
 }
 
-/// Two hats of triangles around a wavy rim of so many vertices: the first two vertices see all of it.
+/// Two fans of triangles on a common wavy rim of `rim` vertices; the first two vertices are their apexes.
 fn hats(rim: usize, height: f64) -> SurfaceMesh {
     let turn = |k: usize| std::f64::consts::TAU * k as f64 / rim as f64;
     let around = (0..rim).map(|k| DVec3::new(cos(turn(k)), sin(turn(k)), 0.1 * sin(3.0 * turn(k))));
@@ -88,7 +88,8 @@ fn generators_make_the_same_files_again() {
 
 #[test]
 fn landmarks_beside_edges_are_told_where_they_are_held() {
-    // A corner but for 1e-7, an edge but for 1e-9, and points that stay.
+    // The points lie 1e-7 from a corner, 1e-9 from an edge, inside faces, and at a vertex; only the first two are moved where they are
+    // held.
     let mut files = Files::from(case(Kind::Dense, 1, Size::Small));
     let on_face =
         |face: u32, [a, b, c]: [f64; 3]| format!("{{\"face\":{face},\"barycentric\":[{a},{b},{c}]}}");

@@ -1,4 +1,4 @@
-//! `conemap transfer` on files: every kind of thing there and back, and sentences for what does not fit.
+//! Tests of `conemap transfer` on files: every kind of content there and back, and sentences for files that do not fit.
 
 use crate::command_line::{conemap, errors, folder, json};
 use conemap::export::picture::png;
@@ -23,7 +23,7 @@ fn egg() -> SurfaceMesh {
     sphere.with_positions(sphere.positions().iter().map(|p| *p * DVec3::new(1.0, 1.3, 0.9)).collect())
 }
 
-/// A ball mapped onto an egg, as files.
+/// The files of a ball, an egg, and a map between them.
 struct Files {
     folder: PathBuf,
     source: SurfaceMesh,
@@ -65,7 +65,7 @@ impl Files {
         self.folder.join(name)
     }
 
-    /// Runs `transfer`; words that begin with @ are files of the folder. What it says on standard error.
+    /// Runs `transfer` and returns its text on standard error; words that begin with @ are files of the folder.
     fn transfer(&self, words: &[&str]) -> Result<String, String> {
         let files = ["map.conemap", "source.obj", "target.obj"].map(|name| self.path(name).into_os_string());
         let word = |word: &&str| match word.strip_prefix('@') {
@@ -93,7 +93,7 @@ fn positions(mesh: &SurfaceMesh) -> Vec<DVec3> {
 #[test]
 fn attributes_go_there_and_back() {
     let files = Files::new("attributes_go_there_and_back");
-    // A table on the source: a smooth function, weights that sum to 1, a label.
+    // The table on the source has a smooth function, weights that sum to 1, and a label.
     let mut table = String::from("vertex,heat,left,right,part\n");
     for (v, p) in files.source.positions().iter_enumerated() {
         let left = if p.x > 0.0 { 0.9 } else { 0.2 };
@@ -154,7 +154,7 @@ fn properties_of_a_ply_file_keep_their_names_and_types() {
     assert!(
         found.columns.iter().zip(&columns).all(|(a, b)| (&a.name, a.number_type) == (&b.name, b.number_type))
     );
-    // Whole numbers that are no colours are labels: none is between.
+    // Whole numbers that are no colours are labels, and are not mixed.
     assert!(found.columns[1].values.iter().all(|bone| [Some(11.0), Some(3.0)].contains(bone)));
     for (p, u) in files.source.positions().iter().zip(&found.columns[2].values) {
         assert!((u.unwrap() - 0.5 - 0.325 * p.y).abs() < 0.03, "{u:?} at {p}");
@@ -213,7 +213,7 @@ fn the_way_to_the_target_is_an_animated_mesh() {
     assert!(refused.contains("the name must end in one of .glb"), "{refused}");
 }
 
-/// A mesh as OBJ with texture coordinates, told by face, position and corner.
+/// An OBJ file of a mesh with texture coordinates, which `chart` gives by face, position and corner.
 fn with_charts(mesh: &SurfaceMesh, chart: impl Fn(usize, DVec3, usize) -> [f64; 2]) -> String {
     let mut text = String::from_utf8(obj::mesh(mesh)).unwrap();
     text.truncate(text.find("\nf ").unwrap() + 1);
@@ -232,7 +232,7 @@ fn with_charts(mesh: &SurfaceMesh, chart: impl Fn(usize, DVec3, usize) -> [f64; 
 #[test]
 fn a_texture_is_baked_over_the_source_s_own_coordinates() {
     let files = Files::new("a_texture_is_baked_over_the_source_s_own_coordinates");
-    // Every face in a cell of a grid of its own. A map file is bound to the mesh, not to the file's other lines.
+    // Every face has its own cell of a grid in the texture. A map file is bound to the mesh, not to the file's other lines.
     let grid = |f: usize, _: DVec3, k: usize| {
         let [column, row] = [f % 23, f / 23].map(|x| x as f64);
         let [u, v] = [[0.05, 0.05], [0.95, 0.05], [0.05, 0.95]][k];
@@ -240,7 +240,7 @@ fn a_texture_is_baked_over_the_source_s_own_coordinates() {
     };
     files.write("source.obj", with_charts(&files.source, grid));
     files.write("target.obj", with_charts(&files.target, |_, p, _| [0.5 + 0.3 * p.x, 0.5 + 0.3 * p.y]));
-    // Red on the side of larger x, blue on the other.
+    // The texture is red where x is larger, and blue on the other side.
     let pixel = |k: usize| if k % 64 < 32 { [0, 0, 255, 255] } else { [255, 0, 0, 255] };
     let picture = Picture { width: 64, height: 64, pixels: (0..64 * 64).map(pixel).collect() };
     files.write("texture.png", png(&picture).unwrap());
@@ -251,14 +251,14 @@ fn a_texture_is_baked_over_the_source_s_own_coordinates() {
     assert_eq!((baked.width, baked.height), (460, 460));
     for f in files.source.faces() {
         let middle = files.source.corners(f).iter().sum::<DVec3>() / 3.0;
-        // A texel in the middle of the face's chart.
+        // The texel lies in the middle of the face's chart.
         let [column, row] = [f.index() % 23, f.index() / 23].map(|x| 20 * x);
         let found = baked.pixels[(459 - row - 6) * 460 + column + 6];
         if middle.x.abs() > 0.15 {
             assert_eq!(found, pixel(if middle.x > 0.0 { 63 } else { 0 }), "{f:?} at {middle}");
         }
     }
-    // Coordinates outside the picture are told with the file that has them.
+    // The error about coordinates outside the picture names the file that has them.
     files.write("source.obj", with_charts(&files.source, |f, p, k| grid(f, p, k).map(|x| 2.0 * x)));
     let said = files.transfer(&["--texture", "@texture.png", "--out", "@b.png"]).unwrap_err();
     assert!(said.contains("source.obj: face ") && said.contains("must be from 0 to 1"), "{said}");
@@ -270,7 +270,7 @@ fn a_texture_is_baked_over_the_source_s_own_coordinates() {
     assert!(said.contains("plain.obj: this is no PNG file"), "{said}");
 }
 
-/// Curves on the source in one of the formats, brought to the target and back.
+/// Brings curves on the source, in one of the formats, to the target and back.
 fn there_and_back(files: &Files, given: &str, between: &str) -> Vec<curve_file::Curve> {
     files.transfer(&["--curves", given, "--from", "source", "--out", between]).unwrap();
     files.transfer(&["--curves", between, "--out", "@back.json"]).unwrap();
@@ -280,7 +280,7 @@ fn there_and_back(files: &Files, given: &str, between: &str) -> Vec<curve_file::
 #[test]
 fn curves_go_there_and_back() {
     let files = Files::new("curves_go_there_and_back");
-    // The equator of the ball, which is made of edges, as lines of its own OBJ file.
+    // The curve is the equator of the ball, which consists of edges, as lines of the ball's OBJ file.
     let mut ring: Vec<_> =
         files.source.vertices().filter(|v| files.source.positions()[*v].z == 0.0).collect();
     let angle = |v: &conemap::mesh::VertexId| {

@@ -1,5 +1,5 @@
-//! Bases laid onto scans: quads, texture coordinates, colours, loose parts and a hole on one side, a lost leg and another scale on the
-//! other.
+//! Tests of wrapping: bases with quads, texture coordinates, colours, loose parts and a hole are laid onto scans with a lost leg and in
+//! another scale.
 
 use crate::job::{Files, run};
 use crate::quads::obj_with_quads;
@@ -14,13 +14,13 @@ use conemap::pipeline::{Choices, PipelineOptions};
 use glam::DVec3;
 use std::fmt::Write;
 
-/// The faces whose middles are not near the end of a lowest leg.
+/// Whether the middle of a face is not within a radius of the lowest vertex, the end of a leg.
 fn without_leg(mesh: &SurfaceMesh, radius: f64) -> impl Fn(FaceId) -> bool + '_ {
     let lowest = mesh.positions().iter().copied().reduce(|p, q| if q.y < p.y { q } else { p }).unwrap();
     move |f| mesh.corners(f).into_iter().sum::<DVec3>().distance(3.0 * lowest) > 3.0 * radius
 }
 
-/// An eye beside the base, and a vertex without a face.
+/// The file with an eye beside the base, and a vertex without a face.
 fn with_loose_parts(mut text: String, vertices: usize, middle: DVec3) -> String {
     let eye = icosphere(1);
     for p in eye.positions() {
@@ -35,12 +35,12 @@ fn with_loose_parts(mut text: String, vertices: usize, middle: DVec3) -> String 
     text
 }
 
-/// The lines that are no vertices, each with its end.
+/// The lines of a file other than those of vertices, each with its line end.
 fn other_lines(text: &[u8]) -> Vec<&[u8]> {
     text.split_inclusive(|b| *b == b'\n').filter(|line| !line.starts_with(b"v ")).collect()
 }
 
-/// Remembers whether the stage was told, and its fractions.
+/// A monitor that keeps whether the stage of wrapping was reported, and its fractions.
 #[derive(Default)]
 struct Watch {
     is_wrapping: bool,
@@ -63,7 +63,7 @@ fn a_base_keeps_its_lines_and_lies_on_the_scan() {
     let demo = demo::build("horse-cat").unwrap();
     let (base, scan) = (&demo.source, &demo.target);
     let mut files = Files::of_demo("horse-cat", usize::MAX);
-    // The base has a hole at its back, and the scan has lost a foot; a landmark is at both.
+    // The base has a hole at its back, and the scan has lost a foot; a landmark lies at each.
     let top = base.positions().iter().copied().reduce(|p, q| if q.y > p.y { q } else { p }).unwrap();
     let has_face = |f: FaceId| base.corners(f)[0].distance(top) > 0.15;
     let text = String::from_utf8(obj_with_quads(base, has_face)).unwrap();
@@ -116,9 +116,9 @@ fn assert_lies_on_scan(wrapped: &WrappedFile, vertices: usize) {
     for figures in [surface.distance.to_scan, surface.distance.from_scan] {
         assert!(figures.mean < 0.003 && figures.p95 < 0.01 && figures.max < 0.2, "{report:?}");
     }
-    // The lost foot is there, as a foot: about as far below the body as the others.
+    // The lost foot is extended as a foot, about as far below the body as the others.
     assert!(surface.extended > 5 && surface.covered > 0.9 && surface.covered < 0.999, "{surface:?}");
-    // By the file's numbers, of which several may be one vertex of the surface.
+    // The vertices are counted by the numbers of the file, several of which may be one vertex of the surface.
     assert!(report.extended_vertices.len() >= surface.extended, "{surface:?}");
     assert_eq!(report.loose_vertices, wrapped.laid.iter().filter(|laid| laid.is_none()).count());
     assert!(report.loose_vertices >= 43 && wrapped.laid[vertices..].iter().all(Option::is_none));

@@ -1,4 +1,4 @@
-//! What a user drops by mistake ends in the sentence that says what is wrong.
+//! Tests that files that a user may drop by mistake end in the sentence that says what is wrong.
 
 use crate::common::read_mesh;
 use crate::data::{SHREC07, SINGLE, SUMNER, TOSCA};

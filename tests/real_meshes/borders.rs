@@ -1,4 +1,4 @@
-//! Cat and lion, horse and camel, both cut at the neck.
+//! Tests of borders that correspond, on cat and lion and on horse and camel, both cut at the neck.
 
 use crate::common::{landmarks, read_pair, vertex_pairs};
 use crate::cutting::{Cuts, Kept, Open, Plane, rim_distances};
@@ -23,7 +23,8 @@ fn horse_and_camel_cut_at_the_neck_are_mapped_rim_to_rim(data: &Path) {
     rim_goes_to_rim(data, "horse-camel", [2890, 2882], 4239);
 }
 
-/// `neck` are two vertices of the source's neck on opposite sides, `nose` is the landmark at its nose.
+/// Checks that rims are mapped onto rims. `neck` are two vertices on opposite sides of the source's neck, `nose` is the landmark at its
+/// nose.
 fn rim_goes_to_rim(data: &Path, name: &str, neck: [u32; 2], nose: u32) {
     let pair = read_pair(data, name);
     let noses = vertex_pairs(&pair.file).into_iter().find(|ends| ends[0] == nose).unwrap().map(VertexId);
@@ -53,7 +54,7 @@ fn rim_goes_to_rim(data: &Path, name: &str, neck: [u32; 2], nose: u32) {
     let [mean, largest] = rim_distances(&sides, &result);
     assert!(mean < 0.001 && largest < 0.01, "{mean} {largest}");
 
-    // As little distorted as the closed pair on the same skin.
+    // The distortion is as small as that of the closed pair on the same skin.
     let lost = [0, 1].map(|k| {
         let touches = |f: FaceId| cuts[k].touches(meshes[k], f);
         meshes[k].faces().map(touches).collect::<TiVec<FaceId, bool>>()

@@ -1,4 +1,4 @@
-//! The command line on real meshes.
+//! Tests of the command line on real meshes.
 
 use crate::command_line::{a_failed_flow_reports, conemap_in_a_minute, errors, folder, map_and_check};
 use crate::common::{farthest_points, read_mesh};

@@ -33,7 +33,7 @@ pub const SHREC07: [&str; 8] = [
 ];
 /// Meshes on which searches once did not end.
 pub const HANG: [&str; 3] = ["hang/centaur0.off", "hang/centaur1-remeshed.off", "hang/remeshed-horse.off"];
-/// What a user drops by mistake.
+/// Meshes that a user may drop by mistake.
 pub const BAD: [&str; 6] = [
     "bad/camel-nonmanifold.off",
     "bad/cow-pinched-vertex.off",
@@ -43,7 +43,7 @@ pub const BAD: [&str; 6] = [
     "bad/suzanne-parts.off",
 ];
 
-/// As they come: with holes, loose parts, handles.
+/// Meshes as they are found, with holes, loose parts and handles.
 pub const OPEN: [&str; 7] = [
     "open/alligator-open.off",
     "open/bunny-open.off",
@@ -54,7 +54,7 @@ pub const OPEN: [&str; 7] = [
     "open/skull-genus2.off",
 ];
 
-/// Six pairs of animals and poses, and all of SHREC07.
+/// The names of six pairs of animals and poses, and of all pairs of SHREC07.
 pub fn pair_names() -> Vec<String> {
     let named = ["cat-cat1", "cat-dog", "cat-lion", "horse-camel", "horse-horse01", "horse-horse05"];
     let number = |k: usize| SHREC07[k].trim_start_matches("shrec07/").trim_end_matches(".off");

@@ -1,4 +1,4 @@
-//! Few landmarks on a real pair: the program's own cones.
+//! Tests of the program's own cones, with few landmarks on a real pair.
 
 use crate::common::read_pair;
 use crate::theorems::{farthest_landmarks, maps_with_and_without_own_cones};

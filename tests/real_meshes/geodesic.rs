@@ -1,4 +1,4 @@
-//! Geodesic distances on meshes that once made the search for them endless.
+//! Tests of geodesic distances on meshes on which the search for them once did not end.
 
 use crate::common;
 use crate::data::HANG;
@@ -9,7 +9,7 @@ use std::path::Path;
 
 tests![distances_end_on_meshes_that_once_hung];
 
-/// The meshes on which a front that sinks by rounding never ended.
+/// Checks meshes on which the search did not end, since rounding lowered the distances of its front again and again.
 fn distances_end_on_meshes_that_once_hung(data: &Path) {
     for name in HANG {
         let mesh = common::read_mesh(&data.join(name));

@@ -1,4 +1,4 @@
-//! A real pair matched without a landmark.
+//! A test of matching a real pair without a landmark.
 
 use crate::common;
 use conemap::landmark_matching::{MatchInput, MatchOptions, Verdict, match_landmarks};
@@ -8,7 +8,7 @@ use std::path::Path;
 
 tests![cat_and_lion_are_matched_limb_by_limb];
 
-/// Ends of limbs among the known landmarks, as numbers of pairs: all others lie on the head or between.
+/// The numbers of the known pairs at the ends of limbs; all other pairs lie on the head or between the limbs.
 const FEET_AND_TAIL: [usize; 5] = [2, 4, 10, 18, 0];
 
 fn cat_and_lion_are_matched_limb_by_limb(data: &Path) {

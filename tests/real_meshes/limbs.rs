@@ -1,4 +1,4 @@
-//! Limbs without a landmark on real animals.
+//! Tests of the search for limbs without a landmark, on real animals.
 
 use crate::common;
 use conemap::landmarks::MeshSide::{self, Source, Target};
@@ -8,7 +8,7 @@ use std::path::Path;
 
 tests![tails_without_a_landmark_are_named_and_nothing_else];
 
-/// The meshes of a pair on which limbs are named, with how many.
+/// The meshes of a pair on which limbs are named, each with their number.
 fn named(data: &Path, name: &str) -> Vec<(MeshSide, usize)> {
     let pair = common::read_pair(data, name);
     let landmarks = common::landmarks(&pair);
@@ -18,7 +18,8 @@ fn named(data: &Path, name: &str) -> Vec<(MeshSide, usize)> {
     limbs.map(|f| (f.side.unwrap(), f.vertices.len())).collect()
 }
 
-/// The 21 landmarks of the SHREC07 pairs leave the tails out: five of eight are long. The 33 landmarks leave nothing out.
+/// The 21 landmarks of the SHREC07 pairs leave the tails out, of which five of eight are long. The 33 landmarks of the other pairs leave no
+/// limb out.
 fn tails_without_a_landmark_are_named_and_nothing_else(data: &Path) {
     for name in ["cat-cat1", "cat-dog", "cat-lion", "horse-camel", "horse-horse05"] {
         assert_eq!(named(data, name), [], "{name}");

@@ -6,7 +6,7 @@ use std::path::Path;
 
 tests![pairs_are_certified];
 
-/// Poses of one animal, cats and lions, landmarks few and many, slivers, long limbs.
+/// Pairs with poses of one animal, different animals, few and many landmarks, slivers, and long limbs.
 const PAIRS: [&str; 7] = [
     "cat-lion",
     "horse-camel",

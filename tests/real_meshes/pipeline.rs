@@ -1,4 +1,4 @@
-//! The whole way on real pairs: what a user of the library may rely on.
+//! Tests of the whole pipeline on real pairs, for properties that a user of the library may rely on.
 
 use crate::common::{REPORT_FIELDS, farthest_points, json_fields, read_mesh, read_pair};
 use crate::theorems::{

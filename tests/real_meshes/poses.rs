@@ -1,4 +1,4 @@
-//! Poses of one body whose true map is known.
+//! Tests of maps between poses of one body, whose true map is known.
 
 use crate::common;
 use conemap::monitor::Silent;
@@ -8,7 +8,7 @@ use std::path::Path;
 
 tests![; long: rigid_patches_bring_the_map_nearer_to_the_known_one];
 
-/// Hardly any dents, and the worst places told in order, at points of the meshes.
+/// Checks that a map has hardly any dents, and that the report lists the worst places in order, at points of the meshes.
 fn no_dents(distortion: &DistortionReport, faces: [usize; 2]) {
     let DistortionReport { max, dented, worst, .. } = distortion;
     assert!(*max < 1e3 && *dented < 1e-3, "{max}, {dented} of the area");

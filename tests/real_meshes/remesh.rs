@@ -1,4 +1,4 @@
-//! Remeshing surfaces that are given with slivers.
+//! Tests of remeshing on surfaces that are given with slivers.
 
 use crate::common;
 use crate::remeshing::remeshed;

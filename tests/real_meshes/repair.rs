@@ -1,4 +1,4 @@
-//! Meshes as they come: what a repair makes of each file, and maps of those that have a partner.
+//! Tests of repair on real files: the outcome for each file, and maps of those that have a partner.
 
 use crate::data::{BAD, OPEN};
 use conemap::io;
@@ -38,7 +38,8 @@ fn outcome(data: &Path, name: &str, options: &RepairOptions) -> (String, f64) {
 fn every_file_is_repaired_or_refused(data: &Path) {
     let [genus, parts, sheet] = ["refused: genus", "refused: parts", "refused: open_sheet"];
     let camel = "duplicate_faces 28, split_edges 2, split_vertices 5, capped_holes 2, cut_handles 3";
-    // By default, with every repair allowed where that is another outcome, and percent of the area that are caps.
+    // The columns are the file, the outcome by default, the outcome with every repair allowed where it differs, and the percent of the area
+    // that are caps.
     let table = [
         ("bad/camel-nonmanifold.off", genus, Some(camel), 0.0017),
         ("bad/cow-pinched-vertex.off", "split_vertices 1", None, 0.0),
@@ -64,7 +65,8 @@ fn every_file_is_repaired_or_refused(data: &Path) {
     }
 }
 
-/// The handles that a refusal tells: edges of their loops, and the loops' lengths in percent of the square root of the area.
+/// The table has the handles that a refusal lists: the numbers of edges of their loops, and the loops' lengths in percent of the square
+/// root of the area.
 fn noise_and_true_handles_are_told_apart_by_their_loops(data: &Path) {
     let table: [(&str, &[(usize, f64)]); 3] = [
         ("bad/camel-nonmanifold.off", &[(4, 0.40), (4, 0.41), (7, 1.06)]),
@@ -84,7 +86,7 @@ fn noise_and_true_handles_are_told_apart_by_their_loops(data: &Path) {
     }
 }
 
-/// Maps with a repaired mesh: certified, with a warning that tells the repair and the caps.
+/// Makes a map with a repaired mesh, and checks that it is certified and has warnings about the repair and the caps.
 fn maps(data: &Path, source: &str, target: &str, pairs: &str) {
     let pairs = format!("pairs/{pairs}.json");
     let [source, target, landmarks] = [source, target, pairs.as_str()].map(|name| read(&data.join(name)));

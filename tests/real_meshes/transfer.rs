@@ -1,4 +1,4 @@
-//! What maps are for, on real meshes: values and motions of a horse on a camel.
+//! Tests of transfer on real meshes: values and motions of a horse are brought onto a camel.
 
 use crate::common;
 use conemap::export::vertex_image::Direction::{SourceToTarget, TargetToSource};
@@ -15,14 +15,14 @@ use std::path::Path;
 
 tests![; long: values_and_poses_go_from_horse_to_camel];
 
-/// A wave over the body.
+/// A smooth function on the vertices: a wave over the body.
 fn smooth(mesh: &SurfaceMesh) -> Values {
     let size = mesh.area().sqrt();
     let wave = |p: &DVec3| sin(6.0 * p.x / size) + sin(4.0 * p.y / size + 1.0) * sin(5.0 * p.z / size);
     mesh.positions().iter().map(wave).collect()
 }
 
-/// The root of the mean square error of a function that went there and back, in units of its range, and the largest.
+/// The error of a function after transfer there and back, in units of its range: the root of the mean square, and the largest.
 fn round_trip(meshes: [&SurfaceMesh; 2], map: &Correspondence, carrying: Carrying) -> [f64; 2] {
     let given = smooth(meshes[0]);
     let carried = |direction, values: &Values| {
@@ -38,7 +38,7 @@ fn round_trip(meshes: [&SurfaceMesh; 2], map: &Correspondence, carrying: Carryin
     [(off / meshes[0].area()).sqrt() / (most - least), largest / (most - least)]
 }
 
-/// The length of every edge in a shape over that in the mesh, sorted.
+/// The length of every edge in a shape divided by its length in the mesh, sorted.
 fn stretches(mesh: &SurfaceMesh, shape: &Shape) -> Vec<f64> {
     let length = |h| shape[mesh.tail(h)].distance(shape[mesh.head(h)]) / mesh.length(h);
     let mut all: Vec<f64> = mesh.edges().map(length).collect();
@@ -68,10 +68,10 @@ fn values_and_poses_go_from_horse_to_camel(data: &Path) {
         let moved = transfer.moved(&frame, &mut Silent).unwrap();
         let [horse, camel] = [stretches(&pair.source, &frame), stretches(&pair.target, &moved)];
         let at = |all: &[f64], share: f64| all[(share * (all.len() - 1) as f64) as usize];
-        // The camel's edges are stretched as the horse's are, not more.
+        // The camel's edges are stretched as much as the horse's, and not more.
         assert!(at(&camel, 0.01) > 0.5 * at(&horse, 0.01) && at(&camel, 0.99) < 2.0 * at(&horse, 0.99));
         assert!((at(&camel, 0.5) - 1.0).abs() < 0.1);
-        // And it moves where the horse moves: the landmarks tell.
+        // The camel's landmarks move in the same directions as the horse's.
         let (mut dot, mut squares) = (0.0, [0.0; 2]);
         for (s, t) in landmarks.source.iter().zip(&landmarks.target) {
             let steps = [frame[*s] - pair.source.positions()[*s], moved[*t] - pair.target.positions()[*t]];

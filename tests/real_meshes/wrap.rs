@@ -1,4 +1,4 @@
-//! A cat with quads and texture coordinates, laid onto a lion that lacks a tenth of its skin.
+//! A test of wrapping: a cat with quads and texture coordinates is laid onto a lion that lacks a tenth of its skin.
 
 use crate::common::{read_pair, vertex_pairs};
 use crate::punching::remove_around;
@@ -21,7 +21,7 @@ fn a_base_lies_on_a_punched_scan(data: &Path) {
     let mut pair = read_pair(data, "cat-lion");
     let pairs = vertex_pairs(&pair.file);
     let mut is_gone: TiVec<FaceId, bool> = pair.target.faces().map(|_| false).collect();
-    // In the middle of the back.
+    // The hole is in the middle of the back.
     remove_around(&pair.target, VertexId(pairs[12][1]), 0.1, &mut is_gone);
     let is_left = |v: u32| pair.target.star(VertexId(v)).any(|h| !is_gone[h.face()]);
     let left = pair.file.pairs.iter().zip(&pairs).filter(|(_, [_, v])| is_left(*v)).map(|(p, _)| *p);
@@ -51,7 +51,8 @@ fn a_base_lies_on_a_punched_scan(data: &Path) {
     assert_near([&pair.source, &pair.target], &is_gone, &wrapped);
 }
 
-/// The same by other means: middles of laid faces to the whole lion, the lion's skin to all of the laid cat.
+/// Checks the distances by other means: from the middles of the laid faces to the whole lion, and from the lion's skin to the whole laid
+/// cat.
 fn assert_near([base, scan]: [&SurfaceMesh; 2], is_gone: &TiVec<FaceId, bool>, wrapped: &WrappedFile) {
     let laid = base.with_positions(wrapped.positions.iter().copied().collect());
     let [on_laid, on_scan] = [&laid, scan].map(SurfaceIndex::new);
