@@ -466,7 +466,7 @@ mod tests {
         }
     }
 
-    /// What is recorded is the flow itself: its residuals, and at the end its metric.
+    /// The record agrees with the flow: its residuals, and at the end its metric.
     #[test]
     fn the_record_is_the_flow() {
         let sphere = blown_up_tetrahedron();

@@ -12,7 +12,7 @@ pub(super) struct Bend {
 }
 
 impl Bend {
-    /// Where a place goes.
+    /// The image of a place under the bend.
     pub fn place(&self, p: DVec3) -> DVec3 {
         let angle = p.x / self.radius;
         let reach = self.radius - p.z;

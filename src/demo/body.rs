@@ -7,7 +7,7 @@ use super::rounded_cone::RoundedCone;
 use crate::math::scalar::{max, min};
 use glam::{DVec2, DVec3};
 
-/// How much farther than its blend reaches a part counts, in units of the blend.
+/// The distance by which a part counts beyond the reach of its blend, in units of the blend.
 const SPARE: f64 = 0.1;
 /// The size of the boxes that list the parts which matter in them, in units of the longest extent of the body.
 const BOX: f64 = 1.0 / 48.0;
@@ -22,7 +22,7 @@ pub(super) struct Section {
     sizes: [DVec2; 2],
     length: f64,
     inverse_length: f64,
-    /// How far its round ends reach beyond the ends of its axis.
+    /// The distance by which its round ends reach beyond the ends of its axis.
     reach: f64,
     /// Unit vectors along it, along the width, and along the height.
     axes: [DVec3; 3],
@@ -127,7 +127,7 @@ impl Solid {
     }
 }
 
-/// What a part does to those before it.
+/// The effect of a part on those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Operation {
     Join,

@@ -45,7 +45,7 @@ impl Wrist {
     }
 }
 
-/// How the fingers are held. Angles are in radians.
+/// The pose of the fingers. Angles are in radians.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grip {
     /// The angle by which each finger from the index on is spread, towards the thumb.
@@ -82,7 +82,7 @@ pub(super) const TOGETHER: Grip = Grip {
     fullness: 1.2,
 };
 
-/// Where the fingers begin, from the index on: coordinates towards the thumb and along the hand.
+/// The places where the fingers begin, from the index finger on: coordinates towards the thumb and along the hand.
 const KNUCKLES: [[f64; 2]; 4] = [[0.170, 0.50], [0.058, 0.525], [-0.057, 0.51], [-0.165, 0.46]];
 /// The lengths of the three bones of each finger.
 const PHALANGES: [[f64; 3]; 4] =

@@ -1,4 +1,4 @@
-//! How each demo is built, and the true maps of those that have one.
+//! The construction of each demo, and the true maps of those that have one.
 
 use super::bend::Bend;
 use super::quadruped::Pose;
@@ -152,7 +152,7 @@ mod tests {
         seen.into_iter().all(|b| b)
     }
 
-    /// What is left is as far from the middle as what is right, and at the same height: at rest bodies are symmetric.
+    /// Left and right points are equally far from the middle, and at the same height: at rest bodies are symmetric.
     fn is_symmetric(places: &Places) {
         for name in places.demo.labels.iter().filter_map(|label| label.strip_prefix("left ")) {
             let [left, right] = ["left", "right"].map(|side| places.of(&format!("{side} {name}")));

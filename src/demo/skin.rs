@@ -19,7 +19,7 @@ const CAUTION: f64 = 1.3;
 /// The number of smoothings in each round of collapses, splits and flips.
 const SMOOTHINGS: [usize; 3] = [1, 1, 3];
 
-/// Where the cells lie and how large they are.
+/// The places and the size of the cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cells {
     /// The length of an edge of a cell.

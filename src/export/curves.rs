@@ -20,7 +20,7 @@ pub struct CarriedCurve {
 /// A point of a curve, in the numbers of the mesh's file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CarriedPoint {
-    /// Where it is.
+    /// The place of the point.
     pub point: SurfacePoint,
     /// Its position in space.
     pub position: DVec3,

@@ -16,7 +16,7 @@ const TOUCH: f64 = 1e-9;
 /// The room between islands, in the same units.
 const MARGIN: f64 = 0.03;
 
-/// Where the corners of every base face lie: within the unit square, all at one scale.
+/// The places of the corners of every base face, within the unit square and all at one scale.
 #[derive(Clone, Debug)]
 pub struct FlatSheet {
     /// The corners of each base face, counter-clockwise.

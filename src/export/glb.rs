@@ -51,8 +51,8 @@ pub fn textured_source(
     document.into_glb(node.json(), mesh, None)
 }
 
-/// Where the node lies: a surface far from the origin has its own origin in the node, so that its positions keep all 24 bits of f32
-/// for its shape.
+/// The place of the node: a surface far from the origin has its own origin in the node, so that its positions keep all 24 bits of f32 for
+/// its shape.
 pub(super) struct NodePlace {
     /// The node's origin, in the source's coordinates.
     origin: DVec3,
@@ -117,7 +117,7 @@ pub(super) fn flat(points: &[DVec3]) -> Vec<f32> {
     points.iter().flat_map(|p| p.to_array().map(|x| x as f32)).collect()
 }
 
-/// What is added to numbers in f32 to give points.
+/// The differences, in f32, that give points when they are added to numbers in f32.
 pub(super) fn difference(points: &[DVec3], from: &[f32]) -> Vec<f32> {
     let there = points.iter().flat_map(|p| p.to_array());
     there.zip(from).map(|(there, &here)| (there - f64::from(here)) as f32).collect()

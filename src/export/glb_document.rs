@@ -49,7 +49,7 @@ impl GlbDocument {
         )
     }
 
-    /// Places by vertex, whose bounds are told.
+    /// Adds places by vertex with their bounds.
     pub(super) fn places(&mut self, values: &[f32]) -> usize {
         let number = self.attribute(values, "VEC3", 3);
         let [low, high] = bounds(values);

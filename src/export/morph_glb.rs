@@ -25,14 +25,14 @@ pub struct MorphingMesh<'a> {
     pub positions: [&'a [DVec3]; 2],
     /// The unit normals of the points at the beginning and at the end.
     pub normals: [&'a [DVec3]; 2],
-    /// How far points are off the straight line at each key.
+    /// The offsets of points from the straight line at each key.
     pub bends: &'a [[DVec3; KEYS.len()]],
     /// The turn of each point's surroundings over the whole way: its direction is the axis, its length the angle in radians.
     pub turns: &'a [DVec3],
 }
 
 impl MorphingMesh<'_> {
-    /// How far the normals at a key are off the straight mix of both ends: both are turned there with their surroundings.
+    /// The offsets of the normals at a key from the straight mix of both ends: both are turned there with their surroundings.
     fn normal_bends(&self, time: f64) -> Vec<DVec3> {
         let [begins, ends] = self.normals;
         let bend = |k: usize| {

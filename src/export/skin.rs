@@ -1,4 +1,4 @@
-//! What lies on the triangles of a GLB: the look of a mesh's file with its own pictures, byte for byte, or a checkerboard.
+//! The skin of the triangles of a GLB: the look of a mesh's file with its own pictures, byte for byte, or a checkerboard.
 
 use crate::io::picture::media_type;
 use crate::math::screen_light::light_of;

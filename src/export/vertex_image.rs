@@ -6,7 +6,7 @@ use glam::DVec3;
 use serde_json::json;
 use std::fmt::Write;
 
-/// The direction in which a map is told.
+/// The direction of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Vertices of the source, images on the target.
@@ -19,7 +19,7 @@ impl Direction {
     /// There and back.
     pub const BOTH: [Self; 2] = [Self::SourceToTarget, Self::TargetToSource];
 
-    /// The mesh whose vertices are told, then the mesh of their images.
+    /// The mesh whose vertices are mapped, then the mesh of their images.
     pub fn names(self) -> [&'static str; 2] {
         match self {
             Self::SourceToTarget => ["source", "target"],
@@ -27,7 +27,7 @@ impl Direction {
         }
     }
 
-    /// The mesh whose vertices are told.
+    /// The mesh whose vertices are mapped.
     pub fn side(self) -> MeshSide {
         match self {
             Self::SourceToTarget => MeshSide::Source,
@@ -39,7 +39,7 @@ impl Direction {
 /// The image of a point, in the numbers of the file that holds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointImage {
-    /// Where it is.
+    /// The place of the image.
     pub point: SurfacePoint,
     /// Its position in space.
     pub position: DVec3,

@@ -3,7 +3,7 @@
 use crate::io::vertex_table::{Column, Heading, Rows, VertexTable};
 use std::fmt::Write;
 
-/// A line for each vertex, told as the table says; a vertex without a value has an empty field, or no line where rows are
+/// A line for each vertex, which is named as the table does; a vertex without a value has an empty field, or no line where rows are
 /// numbered and it has no values at all.
 pub fn csv(table: &VertexTable) -> Vec<u8> {
     let mut text = String::new();

@@ -108,7 +108,7 @@ impl Layer {
     }
 }
 
-/// What makes the pipelines.
+/// The parts from which the pipelines are made.
 struct Workshop<'a> {
     device: &'a wgpu::Device,
     shader: wgpu::ShaderModule,

@@ -34,7 +34,7 @@ pub struct Mesh {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clear(pub [f64; 3]);
 
-/// What the colours of a surface tell.
+/// The quantity that the colours of a surface show.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Paint {
     /// Nothing.
@@ -59,7 +59,7 @@ pub enum Paint {
     Look,
 }
 
-/// What lies on the flat metric.
+/// The kind of texture on the flat metric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TextureKind {
     /// A checkerboard.
@@ -77,7 +77,7 @@ pub enum TextureKind {
 /// A texture, and how it lies on the flat metric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Texture {
-    /// What lies on the flat metric.
+    /// The kind of texture on the flat metric.
     pub kind: TextureKind,
     /// From texture coordinates to cells: the image of (1, 0), and where the origin lies.
     pub cells: [f32; 4],
@@ -111,9 +111,9 @@ pub struct Palette {
 pub struct ViewDraw<'a> {
     /// x, y, width, height in physical pixels from the top left.
     pub rectangle: [f32; 4],
-    /// Where the camera stands.
+    /// The pose of the camera.
     pub pose: Pose,
-    /// What the surface's colours tell.
+    /// The quantity that the surface's colours show.
     pub paint: Paint,
     /// The colours of the view.
     pub palette: Palette,
@@ -147,7 +147,7 @@ pub struct ViewDraw<'a> {
     pub balls: &'a [MarkerInstance],
     /// Pins over everything, the lowest first.
     pub pins: &'a [PinInstance],
-    /// What is laid on the surface; white where there is none.
+    /// The pictures that are laid on the surface; white where there is none.
     pub pictures: &'a [Option<Picture>],
 }
 
@@ -181,7 +181,7 @@ struct ViewUniforms {
     under: (wgpu::Buffer, wgpu::BindGroup),
 }
 
-/// What is drawn many times in one frame of a view.
+/// The shapes that are drawn many times in one frame of a view.
 struct Instances {
     balls: Option<wgpu::Buffer>,
     pins: Option<wgpu::Buffer>,

@@ -13,12 +13,12 @@ pub struct IntrinsicTriangulation {
     flips: Vec<HalfedgeId>,
 }
 
-/// Where per-halfedge data goes in a flip.
+/// The move of the data of one halfedge in a flip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Move {
-    /// The halfedge that has them before.
+    /// The halfedge that has the data before the flip.
     pub from: HalfedgeId,
-    /// The halfedge that has them after.
+    /// The halfedge that has the data after the flip.
     pub to: HalfedgeId,
 }
 

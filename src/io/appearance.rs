@@ -1,4 +1,4 @@
-//! How a mesh file says that its surface looks: the colours of its vertices, and pictures with the places in them.
+//! The look that a mesh file gives its surface: the colours of its vertices, and pictures with the places in them.
 //!
 //! Read are the vertices' colours of PLY files (`red`, `green`, `blue`) and of OBJ files (three numbers after the coordinates), texture
 //! coordinates of both, the colours of vertices or faces of OFF files, and what a glTF file's materials say of their base colours.
@@ -17,17 +17,17 @@ use super::{Format, detect};
 use crate::mesh::look::{CornerLook, PicturePlace, PolygonLook};
 use crate::mesh::soup::PolygonSoup;
 
-/// How a mesh looks, and what of its look cannot be used.
+/// The look of a mesh, and remarks on the parts of it that cannot be used.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Appearance {
     /// The look of the file's polygons; `None` where nothing is said of it.
     pub look: Option<PolygonLook>,
-    /// What of the look cannot be used and is left out.
+    /// Remarks on the parts of the look that cannot be used and are left out.
     pub remarks: Vec<LookRemark>,
 }
 
-/// How the polygons of a mesh file look, which were read of the same bytes. `companion` is what comes with it: a picture, or the set of an
-/// OBJ file's materials.
+/// The look of the polygons of a mesh file, which were read from the same bytes. `companion` is the file that comes with it: a picture, or
+/// the set of an OBJ file's materials.
 pub fn read(bytes: &[u8], soup: &PolygonSoup, companion: Option<&[u8]>) -> Appearance {
     let mut appearance = match detect(bytes) {
         Some(Format::Gltf) => {

@@ -27,13 +27,13 @@ const OBJ_WORDS: [&str; 11] = ["v", "vn", "vt", "l", "f", "o", "g", "s", "mtllib
 /// The largest number of points; a file with more is refused.
 pub const MAX_POINTS: usize = 1_000_000;
 
-/// What is wrong with a curve file, and where.
+/// The error about a curve file, with its place.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {problem}")]
 pub struct CurveFileError {
     /// The place of the fault.
     pub place: Place,
-    /// What is wrong and what to do.
+    /// The problem and its remedy.
     pub problem: String,
 }
 
@@ -43,7 +43,7 @@ impl From<Problem> for CurveFileError {
     }
 }
 
-/// Reads the curves of a mesh whose file has that many vertices. Formats are told by content.
+/// Reads the curves of a mesh whose file has that many vertices. Formats are recognised by content.
 ///
 /// # Errors
 /// [`CurveFileError`] with the line.

@@ -83,7 +83,7 @@ pub fn detect(bytes: &[u8]) -> Option<Format> {
     } else {
         is_obj(bytes).then_some(Format::Obj)
     };
-    // Binary STL comes last, since it is told only by numbers that are likely.
+    // Binary STL comes last, since it is recognised only by plausible numbers.
     by_text.or_else(|| stl::is_likely_binary(bytes).then_some(Format::Stl))
 }
 

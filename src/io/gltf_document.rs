@@ -258,7 +258,7 @@ impl Accessor {
     }
 }
 
-/// How an extension packs the shape; `None` where it does not.
+/// The name of the method by which an extension packs the shape; `None` where it does not.
 fn packing(name: &str) -> Option<&'static str> {
     match name {
         "KHR_draco_mesh_compression" => Some("Draco"),

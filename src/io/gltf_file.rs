@@ -113,7 +113,7 @@ fn buffers<'a>(buffers: &[Buffer], binary: Option<&'a [u8]>) -> Result<Vec<Optio
 #[derive(Default)]
 pub(super) struct Scene {
     pub(super) soup: PolygonSoup,
-    /// Where they come from, in their order.
+    /// The parts of the file from which the polygons come, in their order.
     pub(super) parts: Vec<Part>,
     /// Number of positions and indices that were read for them.
     corners: usize,
@@ -342,7 +342,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// How corners follow one another.
+/// The mode in which corners follow one another.
 fn mode(number: u32) -> Result<Mode, String> {
     Ok(match number {
         0 => Mode::Points,

@@ -9,7 +9,7 @@ use gltf::json::buffer::Stride;
 use gltf::json::validation::Checked::{Invalid, Valid};
 use gltf::json::{self, Index};
 
-/// What the library gets. It looks nothing up before [`Document::check_accessor`] has.
+/// The document for the library, which looks up no accessor before [`Document::check_accessor`] has checked it.
 pub(super) fn of(document: &Document) -> gltf::Document {
     let root = json::Root {
         accessors: document.accessors.iter().map(accessor).collect(),

@@ -1,7 +1,7 @@
 //! The look of a glTF file's triangles: its vertices' colours, its materials' base colours, and the pictures that these lay on them by the
 //! first texture coordinates.
 //!
-//! Nothing here refuses a mesh: what cannot be used is left out, and told.
+//! Nothing here refuses a mesh: parts that cannot be used are left out, with a remark.
 
 use super::data_uri;
 use super::gltf_container;
@@ -16,10 +16,10 @@ use gltf::accessor::Dimensions;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// What a file says of its look, and what of it cannot be used.
+/// The look that a file has, and remarks on the parts of it that cannot be used.
 pub(super) fn read(bytes: &[u8]) -> (Option<PolygonLook>, Vec<LookRemark>) {
     let Ok(container) = gltf_container::split(bytes) else { return Default::default() };
-    // Most files without a look are told from others before their triangles are read again.
+    // Most files without a look are recognised before their triangles are read again.
     let says_something = ["COLOR_0", "TEXCOORD_0", "baseColorFactor"];
     let named = |name: &&str| container.json.windows(name.len()).any(|part| part == name.as_bytes());
     if !says_something.iter().any(named) {
@@ -63,12 +63,12 @@ pub(super) struct Used {
     numbers: BTreeMap<usize, Option<u8>>,
     /// The pictures' files.
     pub(super) pictures: Vec<Vec<u8>>,
-    /// What of the look cannot be used.
+    /// Remarks on the parts of the look that cannot be used.
     pub(super) remarks: Vec<LookRemark>,
 }
 
 impl Used {
-    /// The number of an image among the pictures; `None` where it cannot be used, which is told once.
+    /// The number of an image among the pictures; `None` where it cannot be used, on which there is one remark.
     pub(super) fn number(&mut self, image: usize, document: &Images<'_>) -> Option<u8> {
         if let Some(known) = self.numbers.get(&image) {
             return *known;

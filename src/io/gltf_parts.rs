@@ -139,7 +139,7 @@ pub(super) struct Packer {
 }
 
 impl Packer {
-    /// Where the content begins: at a multiple of 4, as accessors need it.
+    /// Adds content and returns the offset at which it begins: a multiple of 4, as accessors need it.
     pub(super) fn add(&mut self, content: &[u8]) -> Result<usize, ReadError> {
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         let start = self.bytes.len();
@@ -229,7 +229,7 @@ mod tests {
     fn parts() -> (String, Vec<u8>, Vec<u8>) {
         let p: [f32; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         let positions = p.iter().flat_map(|x| x.to_le_bytes()).collect();
-        // Not a multiple of 4, so that what follows has to move.
+        // The length is not a multiple of 4, so that the next part has to move.
         let indices = vec![9, 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
         let text = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
             "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],

@@ -1,9 +1,9 @@
-//! What cannot be used of how a mesh file says that its surface looks.
+//! Remarks on the parts of the look of a mesh file that cannot be used.
 
 use super::picture::{self, MAX_PIXELS, PictureError};
 use crate::mesh::look::MOST_PICTURES;
 
-/// What cannot be used of a look. The mesh is good without it.
+/// A remark on a part of a look that cannot be used. The mesh is good without it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LookRemark {
@@ -31,13 +31,13 @@ pub enum LookRemark {
         /// Number of rows.
         height: usize,
     },
-    /// There are more pictures than are told apart.
+    /// There are more pictures than can be distinguished.
     #[error("only {MOST_PICTURES} pictures are shown; what others lie on has none")]
     TooMany,
     /// Some numbers cannot be used.
     #[error("its colours are incomplete: {problem}")]
     Unusable {
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
 }

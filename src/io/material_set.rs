@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 pub struct PackedMaterials {
     /// The contents of the file.
     pub bytes: Vec<u8>,
-    /// How many of the pictures that the materials name were found.
+    /// The number of pictures that the materials name and that were found.
     pub found: usize,
 }
 
@@ -138,17 +138,17 @@ impl SetWriter<'_> {
     }
 }
 
-/// What comes with a mesh file to be laid on it: the materials of an OBJ file, or one picture.
+/// The contents of a file that comes with a mesh file: the materials of an OBJ file, or one picture.
 #[derive(Clone, Debug, Default)]
 pub(super) struct MaterialSet {
     by_name: BTreeMap<String, Material>,
     /// The files of the pictures.
     pub(super) pictures: Vec<Vec<u8>>,
-    /// What of the materials cannot be used.
+    /// Remarks on the parts of the materials that cannot be used.
     pub(super) remarks: Vec<LookRemark>,
 }
 
-/// What a material says.
+/// The properties of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Material {
     /// The colour of polygons without a picture, as a screen shows it.

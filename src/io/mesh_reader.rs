@@ -35,7 +35,7 @@ pub enum ReadError {
         format: Format,
         /// The place of the fault.
         place: Place,
-        /// What is wrong and what to do.
+        /// The problem and its remedy.
         problem: String,
     },
     /// The user asked to stop.

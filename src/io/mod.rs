@@ -1,4 +1,4 @@
-//! Bytes to polygon soups and landmark files. One file per format; formats are told by content, not by name.
+//! Bytes to polygon soups and landmark files. One file per format; formats are recognised by content, not by name.
 //!
 //! Everything is hostile until checked: sizes are compared with the file before anything is allocated.
 

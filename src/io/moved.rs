@@ -1,9 +1,9 @@
 //! Text of a mesh file with its vertices at other places: all else stays byte for byte.
 //!
-//! In an OBJ file only the three coordinates of its `v` lines change, in an OFF file those of its vertices (a fourth one, by which
-//! they are divided, becomes 1). What follows them on the line, as colours do, stays, and so do order, comments, spaces, line ends
-//! and the encoding. Where coordinates stand is told by the readers of both formats, and what is written is read again: a file
-//! that would be read otherwise is refused.
+//! In an OBJ file only the three coordinates of its `v` lines change, in an OFF file those of its vertices (a fourth one, by which they are
+//! divided, becomes 1). What follows them on the line, as colours do, stays, and so do order, comments, spaces, line ends and the encoding.
+//! The readers of both formats say where coordinates stand, and the written file is read again: a file that would be read otherwise is
+//! refused.
 
 use super::problem::Place;
 use super::written_text::{Replacing, WrittenText};
@@ -11,7 +11,7 @@ use super::{Format, ReadError, detect, obj, off, read_mesh};
 use crate::mesh::soup::PolygonSoup;
 use glam::DVec3;
 
-/// What becomes of the normals in an OBJ file: they are those of the old places.
+/// The treatment of the normals in an OBJ file, which are those of the old places.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Normals {
     /// The normals stay as they are.

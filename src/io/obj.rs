@@ -68,7 +68,7 @@ impl<'a> WholeLine<'a> {
     }
 }
 
-/// What a line holds without its comment and without the backslash at its end, and whether there is one.
+/// The content of a line without its comment and without the backslash at its end, and whether there is a backslash.
 fn unfinished(line: &str) -> (&str, bool) {
     let content = without_comment(line);
     content.strip_suffix('\\').map_or((content, false), |content| (content, true))

@@ -7,7 +7,7 @@ use crate::mesh::soup::PolygonSoup;
 use crate::monitor::{Pulse, Silent};
 use glam::DVec3;
 
-/// What the keyword says of a vertex's numbers: `[ST][C][N][4][n]OFF`, the letters in any order.
+/// The numbers of a vertex as the keyword says: `[ST][C][N][4][n]OFF`, the letters in any order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Kind {
     /// A fourth coordinate, by which the others are divided.
@@ -170,7 +170,7 @@ fn read_text<'a>(
     let last_line = text.lines().count().max(1);
     let rest = lines.map(|line| pulse.beat().map(|()| line)).collect::<Result<Vec<(usize, &str)>, _>>()?;
     let announced = Announced { kind, counts, last_line };
-    // The number of edges is told and not needed.
+    // The number of edges is given and not needed.
     let all = || {
         let later =
             rest.iter().flat_map(|&(line, content)| content.split_whitespace().map(move |w| (line, w)));
@@ -194,11 +194,11 @@ fn read_text<'a>(
     }
 }
 
-/// What stands before the vertices of a text.
+/// The part of a text before the vertices.
 struct Opening<'a> {
     kind: Kind,
     counts: Counts,
-    /// What follows the numbers of vertices and faces on their line, the number of edges first; each word with its line.
+    /// The words that follow the numbers of vertices and faces on their line, the number of edges first; each word with its line.
     words: std::vec::IntoIter<(usize, &'a str)>,
 }
 
@@ -240,7 +240,7 @@ impl<'a> Opening<'a> {
 
 /// The lines of a text that has one for each vertex and each face.
 pub(super) struct ElementLines<'a> {
-    /// How many numbers stand before a vertex's colour; `None` where vertices have no colours.
+    /// The number of numbers before a vertex's colour; `None` where vertices have no colours.
     pub before_colour: Option<usize>,
     /// The lines of the vertices.
     pub vertices: Vec<&'a str>,
@@ -261,7 +261,7 @@ pub(super) fn element_lines(text: &str) -> Option<ElementLines<'_>> {
     is_whole.then_some(ElementLines { before_colour, vertices, faces })
 }
 
-/// What the header of a text says.
+/// The header of a text.
 #[derive(Clone, Copy)]
 struct Announced {
     kind: Kind,
@@ -271,7 +271,7 @@ struct Announced {
 }
 
 impl Announced {
-    /// The position that the next words give, each with its line; the words are told.
+    /// The position that the next words give, each with its line; `told` gets the words.
     fn position<'a>(
         self,
         mut next: impl FnMut() -> (usize, Option<&'a str>),
@@ -351,7 +351,7 @@ fn by_words<'a>(
     Ok((soup, words.count()))
 }
 
-/// What follows the first line of a binary file; `None` for text.
+/// The bytes after the first line of a binary file; `None` for text.
 fn binary_part(bytes: &[u8]) -> Option<(Kind, &[u8])> {
     let mut end = 0;
     for line in bytes.split_inclusive(|b| *b == b'\n') {

@@ -1,4 +1,4 @@
-//! Files that hold no mesh of a known format, told by their first bytes, so that the user hears what was given.
+//! Files that hold no mesh of a known format, recognised by their first bytes, so that the error can say what was given.
 
 use super::reading::unmarked;
 use std::fmt;
@@ -13,7 +13,7 @@ pub enum OtherFile {
     Packed(&'static str),
     /// A web page.
     WebPage,
-    /// What Git LFS leaves in place of a large file.
+    /// A pointer that Git LFS leaves in place of a large file.
     LfsPointer,
     /// A picture or a document, with the name of its kind.
     Document(&'static str),
@@ -66,7 +66,7 @@ const STARTS: [(&[u8], OtherFile); 31] = [
 const HEAD: usize = 4096;
 
 impl OtherFile {
-    /// What a file is that holds no mesh; `None` where nothing is known of it.
+    /// The kind of a file that holds no mesh; `None` where it is not known.
     pub fn of(bytes: &[u8]) -> Option<Self> {
         let head = &bytes[..bytes.len().min(HEAD)];
         let head = unmarked(head);

@@ -75,7 +75,7 @@ pub(super) fn vertex_rows(bytes: &[u8]) -> Result<(ElementDef, Vec<Vec<f64>>), U
     Err((Place::Header, "it has no vertices".to_owned()).into())
 }
 
-/// What the header announces of the vertices.
+/// The element of the vertices in the header.
 pub(super) fn vertex_element(bytes: &[u8]) -> Result<ElementDef, Problem> {
     let file = File::split(bytes)?;
     let (mut silent, stopped) = (Silent, Cell::new(None));
@@ -210,7 +210,7 @@ impl<'a> File<'a> {
         Err((Place::Header, "it does not end: the line `end_header` is missing".into()))
     }
 
-    /// What is announced, and a reader of the elements behind it, which ends where the user stops it.
+    /// The header, and a reader of the elements behind it, which ends where the user stops it.
     fn opened<'r>(
         &'r self,
         pulse: &'r mut Pulse<'_>,
@@ -322,7 +322,7 @@ impl PropertyAccess for Row {
     }
 }
 
-/// What a mesh needs of an element: a vertex's place, a face's vertices.
+/// The properties of an element that a mesh needs: a vertex's place, a face's vertices.
 #[derive(Default)]
 struct MeshElement {
     place: [f64; 3],

@@ -1,9 +1,9 @@
-//! What is wrong in a file, and where.
+//! Problems of files, with their places.
 
 use crate::monitor::Cancelled;
 use std::fmt;
 
-/// Where in a file something is wrong.
+/// The place of a problem in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A line, 1-based.
@@ -27,7 +27,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// What a reader says is wrong.
+/// The problem that a reader reports, with its place.
 pub type Problem = (Place, String);
 
 /// Why a reader ends without a mesh.

@@ -1,4 +1,4 @@
-//! What several readers need: text, lines, numbers, and vertices joined by their coordinates.
+//! The tools that several readers need: text, lines, numbers, and vertices joined by their coordinates.
 
 use super::problem::{Place, Problem};
 use crate::mesh::soup::PolygonSoup;
@@ -69,7 +69,7 @@ pub fn number<T: std::str::FromStr>(token: Option<&str>, line: usize, what: &str
     })
 }
 
-/// The beginning of a word, to be told.
+/// The beginning of a word, for error sentences.
 pub fn short(word: &str) -> String {
     word.chars().filter(|c| !c.is_control()).take(20).collect()
 }

@@ -20,7 +20,7 @@ fn tetrahedron_of(bytes: &[u8]) -> SurfaceMesh {
 const POSITIONS: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 const FACES: [[i32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
 
-/// So many tetrahedra in one place as loose triangles.
+/// The corners of `copies` tetrahedra in one place, as loose triangles.
 fn corners(copies: usize) -> Vec<[[f32; 3]; 3]> {
     FACES.map(|t| t.map(|v| POSITIONS[v as usize])).repeat(copies)
 }
@@ -95,7 +95,7 @@ fn gltf_text(copies: usize) -> String {
     )
 }
 
-/// So many tetrahedra in every format.
+/// Files of `copies` tetrahedra in every format.
 fn samples(copies: usize) -> Vec<Vec<u8>> {
     vec![
         off(copies).into(),

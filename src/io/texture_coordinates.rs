@@ -10,7 +10,7 @@ use glam::DVec2;
 /// Names of the two vertex properties of PLY files.
 const PROPERTIES: [[&str; 2]; 3] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"]];
 
-/// What is wrong with texture coordinates, and where.
+/// The error about texture coordinates, with its place.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TextureCoordinateError {
@@ -27,7 +27,7 @@ pub enum TextureCoordinateError {
     Malformed {
         /// The place of the fault.
         place: Place,
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
 }

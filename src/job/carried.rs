@@ -14,7 +14,7 @@ use typed_index_collections::TiVec;
 pub struct CarriedSimplification {
     /// The stages, from the whole mesh down to its landmarks.
     pub stages: Vec<SimplificationStage>,
-    /// Where its vertices are on the source and on the target.
+    /// The positions of its vertices on the source and on the target.
     pub positions: [Vec<DVec3>; 2],
 }
 

@@ -29,7 +29,7 @@ pub struct JobReport<'a> {
     /// The report of the search for landmarks, where the program found some.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub matching: Option<&'a MatchReport>,
-    /// Where soft landmarks settled.
+    /// The points where soft landmarks settled.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     pub settled: &'a [SettledLandmark],
 }
@@ -46,9 +46,9 @@ pub struct Job {
     pub(super) landmarks: LandmarkFile,
     pub(super) remarks: Vec<Remark>,
     pub(super) truth: Truth,
-    /// What is told of landmarks that the program found; `None` where enough were given.
+    /// The report on landmarks that the program found; `None` where enough were given.
     pub(super) matching: Option<MatchReport>,
-    /// Where soft landmarks settled.
+    /// The points where soft landmarks settled.
     pub(super) settled: Vec<SettledLandmark>,
 }
 
@@ -69,7 +69,7 @@ impl Job {
         self.truth = Truth::of_map(image, self.meshes.each_ref());
     }
 
-    /// What was repaired of the source and of the target.
+    /// The repairs of the source and of the target.
     pub fn repairs(&self) -> &[RepairReport; 2] {
         &self.repairs
     }
@@ -94,23 +94,23 @@ impl Job {
         &self.remarks
     }
 
-    /// Compares the names of the mesh files, source and target, with those that the landmark file names. What differs is told
-    /// among [`Self::landmark_remarks`] and the report's warnings.
+    /// Compares the names of the mesh files, source and target, with those that the landmark file names. Differences are listed in
+    /// [`Self::landmark_remarks`] and the report's warnings.
     pub fn compare_names(&mut self, given: [&str; 2]) {
         self.remarks.extend(compare_names(&self.landmarks, given));
     }
 
-    /// What is told of landmarks that the program found; `None` where enough were given.
+    /// The report on landmarks that the program found; `None` where enough were given.
     pub fn matching(&self) -> Option<&MatchReport> {
         self.matching.as_ref()
     }
 
-    /// Where soft landmarks settled, by pair; none where all are held.
+    /// The points where soft landmarks settled, by pair; empty where all landmarks are held.
     pub fn settled(&self) -> &[SettledLandmark] {
         &self.settled
     }
 
-    /// The report of a result of this job, with what is told of landmarks that the program found.
+    /// The report of a result of this job, with that on landmarks that the program found.
     pub fn report<'a>(&'a self, result: &'a MapResult) -> JobReport<'a> {
         JobReport { report: &result.report, matching: self.matching.as_ref(), settled: &self.settled }
     }
@@ -201,8 +201,8 @@ impl Job {
         pipeline::simplifications(self.input(), monitor)
     }
 
-    /// Where the vertices of the mapped meshes are, in the coordinates of the checked ones, whose vertices are the first: those of landmarks
-    /// inside faces follow.
+    /// The positions of the vertices of the mapped meshes, in the coordinates of the checked meshes, whose vertices come first; those of
+    /// landmarks inside faces follow.
     pub fn positions(&self) -> [Vec<DVec3>; 2] {
         let placed = [&self.placed.source, &self.placed.target];
         [0, 1].map(|k| placed[k].mesh.positions().iter().map(|&p| self.meshes[k].as_given(p)).collect())
@@ -219,7 +219,7 @@ impl Job {
         self.meshes.each_ref().map(|mesh| mesh.mesh().vertex_count())
     }
 
-    /// What the user should know of the repairs; nothing of a mesh that was good as given.
+    /// The warnings about repairs; none for a mesh that was good as given.
     fn repair_warnings(&self) -> Vec<Warning> {
         let mut warnings = Vec::new();
         for (side, repair) in MeshSide::BOTH.into_iter().zip(&self.repairs) {
@@ -233,7 +233,7 @@ impl Job {
         warnings
     }
 
-    /// What makes it doubtful that the landmark file belongs to the meshes.
+    /// The warnings that the landmark file may not belong to the meshes.
     fn landmark_warnings(&self) -> impl Iterator<Item = Warning> {
         let is_doubtful = |remark: &&Remark| {
             matches!(

@@ -29,7 +29,7 @@ pub enum JobError {
     Mesh {
         /// The mesh at fault.
         side: MeshSide,
-        /// What is wrong with it.
+        /// The fault of the mesh.
         fault: MeshFault,
     },
     /// A mesh is not one closed surface of genus 0, and cannot be repaired to one.
@@ -52,7 +52,7 @@ pub enum JobError {
     /// The program found no landmarks that lead to a map.
     #[error("{sentence}")]
     Unmatched {
-        /// What to do about it, with the numbers of the files.
+        /// The sentence on the error and its remedy, with the numbers of the files.
         sentence: String,
     },
     /// The target has no mirror image.

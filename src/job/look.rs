@@ -16,7 +16,7 @@ use glam::DVec3;
 pub struct LookFiles<'a> {
     /// The mesh file.
     pub mesh: &'a [u8],
-    /// What comes with it: a picture, or the set of an OBJ file's materials ([`crate::io::material_set`]).
+    /// The file that comes with the mesh: a picture, or the set of an OBJ file's materials ([`crate::io::material_set`]).
     pub companion: Option<&'a [u8]>,
 }
 
@@ -25,7 +25,7 @@ pub struct LookFiles<'a> {
 pub struct MapLook {
     /// The mesh that gives it, and its look; `None` where neither mesh has colours.
     giver: Option<(MeshSide, Look)>,
-    /// What cannot be used of the looks of source and target.
+    /// Remarks on the parts of the looks of source and target that cannot be used.
     pub remarks: [Vec<LookRemark>; 2],
 }
 
@@ -45,8 +45,8 @@ impl MapLook {
         map_look
     }
 
-    /// What lies on a map's triangles between these meshes: the look, or a checkerboard where there is none, or where it is not known in
-    /// which faces the triangles lie.
+    /// The skin of the triangles of a map between these meshes: the look, or a checkerboard where there is none, or where it is not known
+    /// in which faces the triangles lie.
     pub(super) fn skin(
         &self,
         common: &CommonMesh,

@@ -1,4 +1,4 @@
-//! Landmarks found by the program for two meshes, told in the files' own numbers.
+//! Landmarks found by the program for two meshes, in the files' own numbers.
 
 use super::error::JobError;
 use crate::io::landmark_file::{LandmarkFile, LandmarkPoint};
@@ -14,7 +14,7 @@ use crate::monitor::Monitor;
 use serde::Serialize;
 use typed_index_collections::TiVec;
 
-/// What becomes of fewer landmarks than a map needs.
+/// The treatment of fewer landmarks than a map needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FewLandmarks {
     /// Fewer landmarks are refused.
@@ -28,7 +28,7 @@ pub enum FewLandmarks {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct MatchReport {
-    /// How sure the first candidate is.
+    /// The verdict on the first candidate.
     pub verdict: VerdictReport,
     /// The candidates, the best first; none where fewer than four pairs were found.
     pub candidates: Vec<CandidateReport>,
@@ -42,7 +42,7 @@ impl MatchReport {
     }
 }
 
-/// How sure a match is.
+/// The verdict on a match.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct VerdictReport {
@@ -54,9 +54,9 @@ pub struct VerdictReport {
     pub kind: &'static str,
     /// One sentence for the user, with what to do.
     pub sentence: String,
-    /// Where it is doubtful: what settles it.
+    /// The question that settles a doubtful match.
     pub question: Option<QuestionReport>,
-    /// Where it is unknown: vertices of the source that should be marked.
+    /// The vertices of the source that should be marked where no match is found to be right.
     pub places: Vec<usize>,
 }
 
@@ -86,7 +86,7 @@ pub struct CandidateReport {
     pub pairs: Vec<[LandmarkPoint; 2]>,
     /// One name per pair.
     pub labels: Vec<String>,
-    /// Where each pair comes from.
+    /// The origin of each pair.
     pub origins: Vec<PairOrigin>,
     /// The score of the pairs: the less, the better.
     pub score: f64,
@@ -102,7 +102,7 @@ pub struct CandidateReport {
     pub difference: Option<DifferenceReport>,
 }
 
-/// How a candidate differs from the best.
+/// The difference of a candidate from the best one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct DifferenceReport {

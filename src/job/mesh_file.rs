@@ -6,7 +6,7 @@ use crate::mesh::check::{MeshFault, closed_genus_zero};
 use crate::mesh::repair::{RepairOptions, RepairRefusal, RepairReport, repaired};
 use crate::monitor::{Cancelled, Monitor, Step};
 
-/// What becomes of a mesh that is not one closed surface of genus 0.
+/// The treatment of a mesh that is not one closed surface of genus 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MeshFaults {
     /// The mesh is repaired, as far as the options let it, and the report says so.
@@ -27,7 +27,7 @@ impl Default for MeshFaults {
 pub struct ReadMesh {
     /// The mesh with its file's own numbers.
     pub mesh: FileMesh,
-    /// What was repaired; nothing where the mesh was good as given.
+    /// The repairs that were made; empty where the mesh was good as given.
     pub report: RepairReport,
 }
 

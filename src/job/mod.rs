@@ -1,4 +1,4 @@
-//! One job: two mesh files and their landmark files in, a map out, told in the files' own numbers.
+//! One job: two mesh files and their landmark files in, a map out, in the files' own numbers.
 //!
 //! The pipeline knows checked meshes and landmarks that are vertices. A user has files: with vertices that no face uses, faces
 //! that were turned, landmarks inside faces. A job goes from the ones to the others and back; the command line, the page and

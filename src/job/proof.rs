@@ -1,7 +1,7 @@
 //! Saved maps proved by `conemap_verify`, which shares no code with what makes them.
 //!
-//! What the proof trusts of this crate are the readers (`io`) and the triangulation of polygons: they give arrays of coordinates
-//! and triangles, whose hash the map file has.
+//! Of this crate the proof trusts the readers (`io`) and the triangulation of polygons: they give arrays of coordinates and triangles,
+//! whose hash the map file has.
 
 use super::MapFiles;
 use crate::io::{self, ReadError};
@@ -80,7 +80,7 @@ impl Arrays {
 
 /// Proves that a map file holds a one-to-one map between its meshes: see the documentation of `conemap_verify`.
 ///
-/// `ask` is told the share that is done, and stops the proof by `Break`.
+/// `ask` gets the share that is done, and stops the proof by `Break`.
 ///
 /// # Errors
 /// [`ProofError`] with the file at fault.

@@ -1,10 +1,10 @@
-//! What a second program says of a map, stable as JSON.
+//! The report of the second certificate on a map, stable as JSON.
 
 use super::proof::ProofError;
 use conemap_verify::Proof;
 use serde::Serialize;
 
-/// What became of the proof of a map.
+/// The outcome of the proof of a map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(tag = "verdict", rename_all = "kebab-case")]
@@ -22,7 +22,7 @@ pub enum ProofReport {
     },
 }
 
-/// What was found of a map that is not refused.
+/// The figures of the proof of a map that is not refused.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct ProofFigures {

@@ -134,7 +134,7 @@ fn read_meshes(
 
 /// Landmarks as they were given, and what the program adds to them.
 struct Given {
-    /// The landmarks as they are told of the file.
+    /// The landmarks in the numbers of the files.
     landmarks: LandmarkFile,
     /// Their points on the meshes as they are mapped.
     pairs: Vec<[LandmarkPoint; 2]>,
@@ -177,7 +177,7 @@ impl Given {
         if target_image == TargetImage::Mirrored {
             report.mirror_target();
         }
-        // What was given stays as it is told of the file.
+        // The given pairs stay in the numbers of the files.
         let told = self.landmarks.pairs.len();
         self.landmarks.pairs.extend_from_slice(&report.candidates[0].pairs[told..]);
         self.landmarks.labels = best.labels;

@@ -20,7 +20,7 @@ pub struct ShapeOutput {
     direction: Direction,
     /// The mesh, as OBJ.
     pub file: OutputFile,
-    /// How near it comes to the other.
+    /// The measures of how near the shape comes to the other mesh.
     pub report: ShapeReport,
 }
 

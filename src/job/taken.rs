@@ -1,4 +1,4 @@
-//! What is taken away of a map with pieces: every file of it, and answers about points.
+//! The results of a map with pieces: all its files, and answers about points.
 
 use super::look::MapLook;
 use crate::export;
@@ -224,7 +224,7 @@ impl<'a> TakenMap<'a> {
         images.into_iter().map(|image| image.map(place)).collect()
     }
 
-    /// The images of points, given and told in the files' numbers. The faces must exist.
+    /// The images of points; both are in the files' numbers. The faces must exist.
     pub fn images(&self, direction: Direction, points: &[SurfacePoint]) -> Vec<PointImage> {
         let from = direction.side();
         let locator = PointLocator::new(self.surfaces(), &self.map.correspondence);
@@ -295,7 +295,7 @@ impl<'a> TakenMap<'a> {
         Ok(export::glb::textured_source(&common, &distortion, self.meshes.map(FileMesh::frame), &skin))
     }
 
-    /// What lies on the triangles of the map: the look that it carries, or a checkerboard.
+    /// The skin of the triangles of the map: the look that it carries, or a checkerboard.
     pub(super) fn skin(&self, common: &CommonMesh) -> Result<Skin, GlbError> {
         Ok(match self.look {
             Some(look) => look.skin(common, self.meshes)?,

@@ -7,7 +7,7 @@ use crate::pipeline::GroundTruth;
 use glam::DVec3;
 use typed_index_collections::TiVec;
 
-/// What is known of the true map.
+/// The true map, as far as it is known.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum Truth {
     /// Nothing is known of it.

@@ -21,7 +21,7 @@ pub struct WrappedFile {
     pub bytes: Vec<u8>,
     /// The place of each vertex of the file.
     pub positions: Vec<DVec3>,
-    /// How each vertex of the file came there; `None` for those of loose parts.
+    /// The way in which each vertex of the file was placed; `None` for those of loose parts.
     pub laid: Vec<Option<Laid>>,
     /// The numbers.
     pub report: WrappedFileReport,
@@ -85,7 +85,7 @@ pub enum WrapFileError {
 }
 
 impl WrappedFileReport {
-    /// What became of the base, in sentences.
+    /// The outcome of wrapping, in sentences.
     pub fn sentence(&self) -> String {
         let WrapReport { on_scan, extended, flipped_triangles, ref distance, .. } = self.surface;
         let [mean, p95] = [distance.to_scan.mean, distance.to_scan.p95].map(|share| 100.0 * share);
@@ -132,7 +132,7 @@ impl TakenMap<'_> {
         if scan.is_mirrored() {
             return Err(WrapFileError::Mirrored);
         }
-        // What cannot be written is told before the work is done.
+        // A base that cannot be written is refused before the work is done.
         moved::check(base_file, normals)?;
         let caps = CapFaces { source: base.checked().caps(), target: scan.checked().caps() };
         let map = &self.map().correspondence;

@@ -4,8 +4,8 @@ use super::remark::Remark;
 use crate::io::landmark_file::LandmarkFile;
 use crate::landmarks::MeshSide;
 
-/// What there is to know of the meshes that a landmark file names, `given` being the names of the source's and the target's file.
-/// Folders and endings do not count: `shapes/Cat.off` and `cat.ply` are one name.
+/// Remarks on the meshes that a landmark file names, `given` being the names of the source's and the target's file. Folders and endings do
+/// not count: `shapes/Cat.off` and `cat.ply` are one name.
 pub fn compare_names(file: &LandmarkFile, given: [&str; 2]) -> Vec<Remark> {
     let named =
         [&file.source, &file.target].map(|name| name.as_deref().filter(|name| !stem(name).is_empty()));

@@ -1,7 +1,7 @@
 //! Landmark files of many programs brought onto meshes, and landmarks on meshes written as such files.
 //!
-//! Points in space are put on the nearest point of the surface, with their distances told; the lists of two meshes are paired
-//! by equal labels, or else by order.
+//! Points in space are put on the nearest point of the surface, and their distances are kept; the lists of two meshes are paired by equal
+//! labels, or else by order.
 
 mod mesh_names;
 mod pairing;

@@ -6,7 +6,7 @@ use crate::io::landmark_formats::LandmarkReadError;
 use crate::landmarks::MeshSide;
 use std::fmt;
 
-/// How points that are far from a mesh would lie on it.
+/// A change by which points that are far from a mesh would lie on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Advice {
     /// With x and y of opposite signs.
@@ -52,7 +52,7 @@ pub enum ExchangeError {
     /// Neither one file nor two.
     #[error("landmarks are in one file or in two, but {count} were given")]
     FileCount {
-        /// How many.
+        /// The number of points.
         count: usize,
     },
     /// A point of a face that the mesh does not have.
@@ -92,7 +92,7 @@ pub enum ExchangeError {
         distance: f64,
         /// The distance in units of the square root of the mesh's area.
         share: f64,
-        /// How all points would lie on the mesh, where such a way was found.
+        /// The change by which all points would lie on the mesh, where one was found.
         advice: Option<Advice>,
     },
     /// Lists that cannot be paired.

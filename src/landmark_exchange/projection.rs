@@ -10,7 +10,7 @@ use crate::mesh::surface_index::SurfaceIndex;
 use crate::mesh::{FaceId, SurfacePoint, VertexId};
 use glam::DVec3;
 
-/// From this distance on, in units of the square root of the area, a landmark off the surface is told. Chosen by hand.
+/// The distance from the surface, in units of the square root of the area, from which on a landmark is reported. Chosen by hand.
 const TOLD: f64 = 0.01;
 /// From this distance on it is refused. Chosen by hand.
 const REFUSED: f64 = 0.2;
@@ -32,7 +32,7 @@ pub struct PlacedMark {
     pub label: String,
     /// The point; `None` where its file says that it was not placed.
     pub point: Option<LandmarkPoint>,
-    /// How far off the surface its file has it, in the units of the mesh; 0 where the file has it on the surface.
+    /// The distance of the point in the file from the surface, in the units of the mesh; 0 for a point that the file gives on the surface.
     pub distance: f64,
 }
 
@@ -41,18 +41,18 @@ pub struct PlacedMark {
 pub struct SideLandmarks {
     /// The landmarks in the order of their file.
     pub marks: Vec<PlacedMark>,
-    /// What there is to know about them.
+    /// Remarks on the landmarks.
     pub remarks: Vec<Remark>,
 }
 
-/// What places the landmarks of one list.
+/// The data by which the landmarks of one list are placed.
 struct Placement<'a> {
     surface: Surface<'a>,
     /// The square root of the mesh's area, in the units of its file.
     size: f64,
     /// The number in the file of each vertex of the mesh.
     numbers: Vec<usize>,
-    /// Where there are points in space.
+    /// The index of the surface; `None` where the list has no points in space.
     index: Option<SurfaceIndex<'a>>,
 }
 
@@ -101,7 +101,7 @@ impl Placement<'_> {
         };
         let checked = self.surface.mesh;
         let Some(known) = checked.face_from_file(FaceId(face)) else {
-            // A face that a repair dropped is told as such when landmarks are placed.
+            // The placing of landmarks reports a face that a repair dropped.
             return if (face as usize) < checked.file_faces() { Ok(point) } else { Err(face) };
         };
         let corners = checked.mesh.triangles()[known];
@@ -167,7 +167,7 @@ impl Placement<'_> {
         })
     }
 
-    /// How the points of a list would lie on the mesh.
+    /// The way in which the points of a list would lie on the mesh.
     fn advice(&self, list: &MarkList) -> Option<Advice> {
         let index = self.index.as_ref()?;
         let in_space = list.marks.iter().filter_map(|mark| match mark.spot {
@@ -185,7 +185,7 @@ impl Placement<'_> {
         UNITS.into_iter().find(|factor| fit(&|p| p * *factor)).map(Advice::Scale)
     }
 
-    /// What there is to know: points that were not placed, and those that are somewhat off the surface, the farthest first.
+    /// Remarks on the points that were not placed, and on those that are somewhat off the surface, the farthest first.
     fn remarks(&self, marks: &[PlacedMark], side: MeshSide) -> Vec<Remark> {
         let unplaced = marks.iter().enumerate().filter(|(_, mark)| mark.point.is_none());
         let unplaced: Vec<_> = unplaced

@@ -25,9 +25,9 @@ pub struct PairLandmarks {
     pub file: LandmarkFile,
     /// The formats of the files that were read.
     pub formats: Vec<LandmarkFormat>,
-    /// How far off the surface each point of a pair was, in the units of its mesh.
+    /// The distance of each given point of a pair from the surface, in the units of its mesh.
     pub distances: Vec<[f64; 2]>,
-    /// What there is to know about them.
+    /// Remarks on the landmarks.
     pub remarks: Vec<Remark>,
 }
 
@@ -90,7 +90,7 @@ fn one_side(file: &GivenFile<'_>, number: usize) -> Result<(LandmarkFormat, Mark
     }
 }
 
-/// What there is to know about a file of pairs in the meshes' own numbers, whatever the meshes are.
+/// Remarks on a file of pairs in the meshes' own numbers, which need no mesh.
 pub fn remarks_on(file: &LandmarkFile, bytes: &[u8]) -> Vec<Remark> {
     let pairs = file.pairs.len();
     let labels = file.labels.as_ref().map_or(pairs, Vec::len);

@@ -1,9 +1,9 @@
-//! What there is to know about landmarks that were read.
+//! Remarks on landmarks that were read.
 
 use crate::landmarks::MeshSide;
 use std::fmt;
 
-/// What there is to know about landmarks that were read. Landmarks are counted from 1 in words, from 0 in fields.
+/// A remark on landmarks that were read. Landmarks are counted from 1 in words, from 0 in fields.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Remark {
@@ -33,7 +33,7 @@ pub enum Remark {
     More {
         /// The mesh.
         side: MeshSide,
-        /// How many.
+        /// The number of landmarks.
         count: usize,
         /// Whether they were far from the surface, and not left out.
         off_surface: bool,
@@ -56,7 +56,7 @@ pub enum Remark {
     OtherMesh {
         /// The mesh.
         side: MeshSide,
-        /// What the file calls it.
+        /// The name in the file.
         named: String,
         /// The name of the file given.
         given: String,

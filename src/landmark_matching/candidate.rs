@@ -59,9 +59,9 @@ const REMOTENESS: f64 = 5.0;
 const UNMATCHED: f64 = 0.12;
 /// Weight of the share of orders that do not agree; see [`REMOTENESS`].
 const ORDERS: f64 = 0.2;
-/// What a nose assigned to an ear adds to the score, and ears assigned to ears take from it: with 0.03 and with 0.05 the face of 385 lies
-/// right on 383, and nothing else changes on the pairs among four animals of SHREC07; 0.05 was taken after another pair (392-397) had been
-/// seen.
+/// The amount that a nose assigned to an ear adds to the score, and that ears assigned to ears subtract from it. With 0.03 and with 0.05
+/// the face of 385 lies right on 383, and nothing else changes on the pairs among four animals of SHREC07; 0.05 was taken after another
+/// pair (392-397) had been seen.
 const ROLES: f64 = 0.05;
 
 impl Candidate {

@@ -265,7 +265,8 @@ mod tests {
         (cat.with_positions(cat.positions().iter().map(|&p| place(p)).collect()), known)
     }
 
-    /// How far two planes are apart, in radians and in units of the size about the middle of the surface.
+    /// The difference of two planes: the sine of the angle between them, plus the difference of their distances from the middle of the
+    /// surface, in units of the root of the area.
     fn apart(mesh: &SurfaceMesh, a: MirrorPlane, b: MirrorPlane) -> f64 {
         let middle = mesh.centre().unwrap();
         let shift = (a.height(middle).abs() - b.height(middle).abs()).abs() / mesh.area().sqrt();

@@ -12,7 +12,7 @@ use crate::monitor::Monitor;
 use std::collections::BTreeSet;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// What all attempts on one pair of meshes share.
+/// The data that all attempts on one pair of meshes share.
 pub(super) struct Ground<'a> {
     pub empty: &'a Drawing,
     pub distances: &'a LandmarkDistances,

@@ -195,7 +195,7 @@ fn average(a: &InputWeights, b: &InputWeights) -> InputWeights {
     mean
 }
 
-/// What holds of every refined mesh, for the tests of layouts.
+/// Checks of invariants of every refined mesh, for the tests of layouts.
 #[cfg(test)]
 pub(super) mod testing {
     use super::*;

@@ -1,4 +1,4 @@
-//! What a map file holds.
+//! The contents of a map file.
 
 use super::header::Summary;
 use crate::base_domain::BaseDomain;
@@ -6,7 +6,7 @@ use crate::io::landmark_file::LandmarkFile;
 use crate::surface_map::correspondence::{Correspondence, TextureDrawing};
 use crate::surface_map::flat_layout::FlatLayout;
 
-/// What a map file holds, told of the meshes that are mapped ([`super::FileMesh::mesh`]).
+/// The contents of a map file, in the numbers of the meshes that are mapped ([`super::FileMesh::mesh`]).
 #[derive(Clone, Debug)]
 pub struct MapFile {
     /// The map.
@@ -21,7 +21,7 @@ pub struct MapFile {
     pub cones: Vec<f64>,
     /// The landmarks, in the files' numbers.
     pub landmarks: LandmarkFile,
-    /// What was chosen of the run, as JSON.
+    /// The choices of the run, as JSON.
     pub options: serde_json::Value,
     /// The measures of the map.
     pub summary: Summary,

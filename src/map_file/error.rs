@@ -28,7 +28,7 @@ pub enum MapFileError {
     /// Something that this program does not know is needed to read it.
     #[error("the map file needs \"{what}\", which this program does not know: use a newer program")]
     Needs {
-        /// What is needed, by its name in the file.
+        /// The feature that is needed, by its name in the file.
         what: String,
     },
     /// The file is shorter than it says.
@@ -42,7 +42,7 @@ pub enum MapFileError {
     /// The header is not as it should be.
     #[error("the map file's header: {problem}")]
     Header {
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
     /// A section is not as it should be.
@@ -52,7 +52,7 @@ pub enum MapFileError {
         section: String,
         /// The element at fault, 0-based; `None` where it is the section as a whole.
         index: Option<usize>,
-        /// What is wrong.
+        /// The problem.
         problem: SectionProblem,
     },
     /// The pieces are no map.
@@ -91,7 +91,7 @@ impl std::fmt::Display for At {
     }
 }
 
-/// What is wrong with a section.
+/// The problem of a section.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SectionProblem {

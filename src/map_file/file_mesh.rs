@@ -160,7 +160,7 @@ impl FileMesh {
         self.checked_hash
     }
 
-    /// How many vertices the file has.
+    /// The number of vertices of the file.
     pub fn file_vertices(&self) -> usize {
         self.checked.vertex_from_file.len()
     }

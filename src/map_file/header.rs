@@ -21,12 +21,12 @@ pub(super) struct Header {
     pub target_image: TargetImage,
     /// The landmark file.
     pub landmarks: serde_json::Value,
-    /// What was chosen of the run, as JSON.
+    /// The choices of the run, as JSON.
     #[serde(default)]
     pub options: serde_json::Value,
     /// The map's numbers.
     pub summary: Summary,
-    /// Where the arrays lie.
+    /// The places of the arrays in the file.
     pub sections: Vec<SectionEntry>,
 }
 
@@ -73,7 +73,7 @@ impl From<&DistortionReport> for Summary {
     }
 }
 
-/// Where an array lies.
+/// The place of an array in the file.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct SectionEntry {
     /// The name of the section.
@@ -83,10 +83,10 @@ pub(super) struct SectionEntry {
     pub kind: SectionType,
     /// Number of its elements.
     pub count: u64,
-    /// How it is stored.
+    /// The way in which the array is stored.
     #[serde(default)]
     pub packing: Packing,
-    /// Where it begins, counted from the end of the header.
+    /// The offset of its first byte from the end of the header.
     pub offset: u64,
     /// The length of the section as stored, in bytes.
     pub bytes: u64,
@@ -120,7 +120,7 @@ pub(super) enum SectionType {
     Other,
 }
 
-/// How a section is stored.
+/// The way in which a section is stored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Packing {

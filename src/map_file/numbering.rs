@@ -104,7 +104,7 @@ pub(super) fn read_places(
     Ok(places)
 }
 
-/// How many parameters a place of a kind has.
+/// The number of parameters of a place of a kind.
 fn parameters_of(kind: u8) -> usize {
     match kind {
         EDGE => 1,

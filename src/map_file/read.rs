@@ -207,7 +207,7 @@ fn increasing(container: &Container<'_>, name: &str, limit: usize) -> Result<Vec
     }
 }
 
-/// Where each polygon's corners lie among all corners.
+/// The range of each polygon's corners among all corners.
 fn ranges(name: &str, sizes: &[u32], corners: usize) -> Result<Vec<Range<usize>>, MapFileError> {
     let mut ranges = Vec::with_capacity(sizes.len());
     let mut begin = 0_usize;

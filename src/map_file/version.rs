@@ -1,9 +1,9 @@
-//! How map files are named and begin.
+//! The names and the first bytes of map files.
 
 /// The ending of map files' names, without the dot.
 pub const ENDING: &str = "conemap";
 
-/// How a map file begins.
+/// The first bytes of a map file.
 pub(super) const MAGIC: &[u8; 8] = b"CONEMAP\0";
 /// Whether bytes begin as a map file does, whole or not.
 pub fn is_one(bytes: &[u8]) -> bool {

@@ -1,9 +1,9 @@
 //! Ways that are bent: a straight line and what a polynomial adds to it that vanishes at both ends.
 //!
-//! The polynomial is told by its values at the times [`KEYS`], and is their combination with the weights of [`weights`]. So who draws a
-//! way needs a point for each key, and the weights of a moment are the same for all points.
+//! The polynomial is given by its values at the times [`KEYS`], and is their combination with the weights of [`weights`]. So drawing a way
+//! needs a point for each key, and the weights of a moment are the same for all points.
 
-/// The times between 0, the begin, and 1, the end, at which a bend is told.
+/// The times between 0, the beginning, and 1, the end, at which a bend is given.
 pub const KEYS: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// The weights of the values at the keys at a time from 0 to 1: Lagrange's polynomials for 0, the keys and 1, without those of both ends,

@@ -88,8 +88,8 @@ impl<K: Ord, V> PartialOrd for Queued<K, V> {
 /// Lengths of shortest paths from `start` to all of the `nodes` nodes of a graph, infinite where there is none (Dijkstra
 /// 1959).
 ///
-/// `links` are the links of a node, each with the node that it leads to and its length, which is not negative. `reached` is told
-/// of each node reached on a shorter path than before, with the path's last link.
+/// `links` are the links of a node, each with the node that it leads to and its length, which is not negative. `reached` is called for each
+/// node that is reached on a shorter path than before, with the path's last link.
 pub fn shortest_paths<L, I: IntoIterator<Item = (u32, f64, L)>>(
     nodes: usize,
     start: u32,

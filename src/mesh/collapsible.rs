@@ -19,7 +19,7 @@ pub struct Collapse {
     pub halfedge: HalfedgeId,
 }
 
-/// What a collapse may do to the triangles that it moves.
+/// The limits for the shapes of the triangles that a collapse moves.
 #[derive(Clone, Copy, Debug)]
 pub struct ShapeLimits {
     /// Least cosine between a triangle's normals before and after.

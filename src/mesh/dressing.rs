@@ -36,7 +36,7 @@ pub struct Dressed {
     pub triangles: BTreeMap<Option<u8>, Vec<[u32; 3]>>,
 }
 
-/// What tells vertices apart: point, colour, picture, and the bits of the place in it.
+/// A key that is equal for vertices that can be joined: point, colour, picture, and the bits of the place in the picture.
 type LookKey = (u32, [u8; 3], Option<u8>, [u32; 2]);
 
 /// A surface that is being dressed.

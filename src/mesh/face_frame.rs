@@ -3,7 +3,7 @@
 use super::{FaceId, Place, SurfaceMesh, SurfacePoint};
 use glam::{DMat2, DVec2};
 
-/// Where a face lies in a face of a coarser mesh.
+/// The place of a face in a face of a coarser mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceFrame {
     /// The face that contains it.
@@ -27,14 +27,14 @@ impl FaceFrame {
     }
 }
 
-/// How places of a mesh become places of the mesh that it refines.
+/// Carries places of a mesh to the mesh that it refines.
 #[derive(Clone, Copy)]
 pub struct Carrier<'a> {
     /// The finer mesh.
     pub from: &'a SurfaceMesh,
     /// The coarser mesh.
     pub onto: &'a SurfaceMesh,
-    /// Where each face of the finer mesh lies in the coarser one.
+    /// The place of each face of the finer mesh in the coarser one.
     pub frame: &'a dyn Fn(FaceId) -> FaceFrame,
 }
 

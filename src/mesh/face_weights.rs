@@ -1,10 +1,10 @@
-//! How much each face of a mesh counts: skin fully, caps (faces made up to close holes) little.
+//! The weights of the faces of a mesh: skin counts fully, and caps (faces made up to close holes) little.
 
 use super::{FaceId, SurfaceMesh, VertexId};
 use crate::math::scalar::min;
 use typed_index_collections::TiSlice;
 
-/// How much a face counts in an energy of maps.
+/// The weight of a face in an energy of maps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceWeight {
     /// The weight, from 0 to 1: skin has 1.
@@ -19,7 +19,7 @@ impl FaceWeight {
     pub const SKIN: Self = Self { weight: 1.0, toll: 0.0 };
 }
 
-/// How much a piece of the overlay of two meshes counts.
+/// The weight of a piece of the overlay of two meshes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PieceWeight {
     /// The weight, from 0 to 1, which is the smaller one of both faces: 1 where both are skin.

@@ -1,4 +1,4 @@
-//! Where a mesh lies and how large it is in its file.
+//! The place and the size that a mesh has in its file.
 //!
 //! Formulas take products of up to six coordinates and differences of near ones, and pictures have 24 bits. So a mesh that is
 //! far from the origin, or whose size is far from 1, is moved and scaled when it is checked. Both are exact: the scale is a power

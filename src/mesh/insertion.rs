@@ -23,7 +23,7 @@ pub struct Insertion {
 }
 
 impl Insertion {
-    /// Where a face lies on the original mesh.
+    /// The place of a face on the original mesh.
     pub fn frame(&self, face: FaceId) -> FaceFrame {
         FaceFrame { face: self.face_origin[face], corners: self.corner_origins[face].map(|w| w.to_array()) }
     }
@@ -171,7 +171,7 @@ mod tests {
         let mesh = icosphere(1);
         let on = SurfacePoint::on_halfedge;
         let edges: Vec<HalfedgeId> = mesh.edges().collect();
-        // The second time the point is on half an edge, and told of the face on its other side.
+        // When the quarter point comes, its edge is already halved, and the point is given in the face on the other side.
         let halves = edges.iter().map(|&h| on(h, 0.5));
         let quarters = edges.iter().map(|&h| on(mesh.twin(h), 0.25));
         let inserted = insert(&mesh, &halves.chain(quarters).collect::<Vec<_>>()).unwrap();

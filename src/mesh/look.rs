@@ -1,4 +1,4 @@
-//! How the corners of a mesh's faces look: colours, and places in the pictures that are laid over the mesh.
+//! The look of the corners of a mesh's faces: colours, and places in the pictures that are laid over the mesh.
 
 use super::check::CheckedMesh;
 use super::packing::{PackedError, Packer, Unpacker};
@@ -7,12 +7,12 @@ use super::{FaceId, VertexId};
 use glam::DVec3;
 use typed_index_collections::TiVec;
 
-/// How one corner of a face looks.
+/// The look of one corner of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CornerLook {
     /// Red, green and blue as a screen shows them (sRGB); the picture's colours are multiplied by them.
     pub colour: [u8; 3],
-    /// Where it lies in a picture; `None` where none is laid on the face.
+    /// The place of the corner in a picture; `None` where no picture is laid on the face.
     pub place: Option<PicturePlace>,
 }
 

@@ -11,7 +11,7 @@ pub enum TargetImage {
     /// The map goes onto the target as it is in its file.
     #[default]
     AsGiven,
-    /// The map goes onto the target's mirror image, for landmarks whose left and right are exchanged; results are told of the
+    /// The map goes onto the target's mirror image, for landmarks whose left and right are exchanged; results are in the numbers of the
     /// target as given.
     Mirrored,
 }

@@ -1,7 +1,7 @@
 //! A checked mesh as bytes, from the instance of the program that has read it to the one that shows it.
 //!
-//! What is quick to check again is checked: every number against its count, twins against each other, and one fan around every
-//! vertex, so that no walk over the mesh leaves it.
+//! Reading checks again what is quick to check: every number against its count, twins against each other, and one fan around every vertex,
+//! so that no walk over the mesh leaves it.
 
 use super::check::{CheckedMesh, RepairedFaces};
 use super::packing::{PackedError, Packer, Unpacker};

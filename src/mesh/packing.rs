@@ -11,7 +11,7 @@ pub struct PackedError {
 }
 
 impl PackedError {
-    /// What is wrong, in words without a full stop.
+    /// An error with its sentence, without a full stop.
     pub fn new(problem: &'static str) -> Self {
         Self { problem }
     }

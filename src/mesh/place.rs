@@ -95,7 +95,7 @@ impl Place {
     }
 }
 
-/// What tells places apart: the element and the bits of its numbers.
+/// A key that is equal for equal places: the element and the bits of its numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PlaceKey(u8, u32, [u64; 2]);
 

@@ -10,7 +10,7 @@ use typed_index_collections::TiVec;
 pub struct RefinedMesh {
     /// The refined mesh. Its first vertices are the input mesh's vertices in their order.
     pub mesh: SurfaceMesh,
-    /// Where each refined vertex lies on the input mesh.
+    /// The point of the input mesh at each refined vertex.
     pub vertex_origin: TiVec<VertexId, SurfacePoint>,
     /// The input face that contains each refined face.
     pub face_origin: TiVec<FaceId, FaceId>,
@@ -105,7 +105,7 @@ impl RefinedMesh {
         })
     }
 
-    /// Where a refined face lies on the input mesh.
+    /// The place of a refined face on the input mesh.
     pub fn frame(&self, input: &SurfaceMesh, face: FaceId) -> FaceFrame {
         FaceFrame { face: self.face_origin[face], corners: self.origins_in_face(input, face) }
     }
@@ -121,7 +121,8 @@ impl RefinedMesh {
 /// The largest number of rounds of bisections: each one after the first is for vertices whose bisectors a neighbour's has cut.
 const BISECTIONS: usize = 4;
 
-/// Where the bisectors of the widest faces at a vertex meet the opposite edges; as many as are missing to a degree.
+/// The points where the bisectors of the widest faces at a vertex meet the opposite edges, as many as the vertex lacks edges for the
+/// degree.
 fn bisectors(mesh: &SurfaceMesh, v: VertexId, degree: usize) -> Vec<SurfacePoint> {
     let place = |h: HalfedgeId| mesh.positions()[mesh.tail(h)];
     let angle = |h: &HalfedgeId| angle_at(place(*h), place(h.next()), place(h.prev()));

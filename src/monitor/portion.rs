@@ -13,7 +13,7 @@ pub struct Portion<'a> {
     previews: Previews,
 }
 
-/// What becomes of the previews of a part.
+/// The treatment of the previews of a part.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Previews {
     Shown,

@@ -1,4 +1,4 @@
-//! Where a run is: stages and their fractions as one share of the whole.
+//! The progress of a run: stages and their fractions as one share of the whole.
 
 use super::Stage;
 

@@ -10,7 +10,7 @@ pub struct Pulse<'a> {
 }
 
 impl<'a> Pulse<'a> {
-    /// Asks after each `every` passes, at least 1; nothing is told of progress.
+    /// Asks after each `every` passes, at least 1, without reporting progress.
     pub fn new(monitor: &'a mut dyn Monitor, every: usize) -> Self {
         Self { monitor, every, passes: 0 }
     }

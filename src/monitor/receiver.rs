@@ -1,4 +1,4 @@
-//! What receives progress and may ask to stop.
+//! The receiver of progress, which may ask the run to stop.
 
 use super::preview::MapPreview;
 use super::stage::Stage;
@@ -32,8 +32,8 @@ impl std::error::Error for Cancelled {}
 pub trait Monitor {
     /// A stage begins.
     fn enter(&mut self, _stage: Stage) {}
-    /// A map is relaxed from now on: another one, or the same one on a finer level or by another kind of energy. The energies
-    /// told next do not compare with those before.
+    /// A map is relaxed from now on: another one, or the same one on a finer level or by another kind of energy. The energies reported next
+    /// cannot be compared with those before.
     fn relaxation_begins(&mut self) {}
     /// The present energy of the map that is being relaxed, of the kind that is lowered: 4 for an isometry. It falls until the
     /// next relaxation begins, but for a little that a step may give to the barrier (2e-4 of 4.6 was seen).

@@ -2,8 +2,8 @@
 
 use super::{Cancelled, MapPreview, Monitor, Stage, Step};
 
-/// Passes everything on, but for a share of a stage that falls: a loop that only asks whether to stop tells 0, also in the middle of
-/// a stage, and is heard with what was told before.
+/// Passes everything on, but for a share of a stage that falls: a loop that only asks whether to stop reports 0, also in the middle of a
+/// stage, and is passed on with the share reported before.
 pub struct Rising<'a> {
     monitor: &'a mut dyn Monitor,
     stage: Option<Stage>,
@@ -52,7 +52,7 @@ impl Monitor for Rising<'_> {
 mod tests {
     use super::*;
 
-    /// Remembers what it is told.
+    /// A monitor that keeps all reports.
     #[derive(Default)]
     struct Recorder(Vec<(Option<Stage>, f64)>);
 

@@ -79,7 +79,7 @@ pub fn straight_map(
     let mut taken = ti_vec![false; inputs[0].vertex_count()];
     for placed in source.iter().flatten().filter(|placed| !is_positive(placed)) {
         for v in layout.source.mesh.triangles()[placed.face] {
-            // Not those that the layout added.
+            // Vertices that the layout added are left out.
             if let Some(taken) = taken.get_mut(v) {
                 *taken = true;
             }

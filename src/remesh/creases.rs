@@ -20,7 +20,7 @@ const BEND: f64 = std::f64::consts::FRAC_PI_4;
 /// The ratio of double area to longest side squared below which a triangle's normal means nothing. Chosen by hand.
 const SLIVER: f64 = 0.02;
 
-/// What a vertex is to the sharp edges.
+/// The kind of a vertex with regard to the sharp edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// The vertex is on no sharp edge.
@@ -82,7 +82,7 @@ impl Creases {
         vertices.iter().for_each(|&v| self.kinds[v] = Kind::Corner);
     }
 
-    /// What a vertex is.
+    /// The kind of a vertex.
     pub fn kind(&self, v: VertexId) -> Kind {
         self.kinds[v]
     }

@@ -13,7 +13,7 @@ use std::f64::consts::FRAC_PI_4;
 /// The crease angle where a user says nothing, in radians.
 pub const USUAL_CREASE_ANGLE: f64 = FRAC_PI_4;
 
-/// How a surface is remeshed.
+/// The options of remeshing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// The wanted number of triangles, at least 4.

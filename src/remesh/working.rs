@@ -18,7 +18,7 @@ pub(super) struct Working<'a> {
     pub creases: Creases,
 }
 
-/// Where a vertex is.
+/// The place of a vertex.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
     pub position: DVec3,
@@ -28,7 +28,7 @@ pub(super) struct Place {
     pub near: FaceId,
 }
 
-/// How well triangles lie on the surface.
+/// Measures of how well triangles approximate the surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
     /// The least cosine between a triangle's normal and the mean of the surface's at its corners.

@@ -22,12 +22,12 @@ pub struct SurfaceVertex {
     pub image: [f32; 3],
     /// The target's unit normal there.
     pub image_normal: [f32; 3],
-    /// How much it lies in a hollow (positive) or on a ridge (negative), from -1 to 1.
+    /// The degree to which the vertex lies in a hollow (positive) or on a ridge (negative), from -1 to 1.
     pub hollow: f32,
     /// The vertex's colour in a look, red, green and blue as a screen shows them; the fourth number is 255 where the picture is
     /// laid on it, or else 0.
     pub tint: [u8; 4],
-    /// How far the vertex lies off its straight way to the image, and how it is turned there.
+    /// The offset of the vertex from its straight way to the image, and its rotation there.
     pub bends: PackedBends,
 }
 
@@ -56,7 +56,7 @@ pub struct PinInstance {
     pub radius: f32,
     /// From the place to the middle of the head, in pixels.
     pub stem: f32,
-    /// How it is drawn: 0 full, 1 an outline, 2 a ring.
+    /// The style of the pin: 0 full, 1 an outline, 2 a ring.
     pub kind: f32,
 }
 

@@ -1,7 +1,7 @@
 //! A camera that a user turns, moves and brings nearer to a surface centred at the origin and scaled to radius 1.
 //!
-//! Its direction is told by angles about the mesh's up axis, so that meshes stay upright while they are turned and two
-//! cameras over meshes with different up axes can be turned alike.
+//! Its direction is given by angles about the mesh's up axis, so that meshes stay upright while they are turned and two cameras over meshes
+//! with different up axes can be turned alike.
 
 use super::pose::Pose;
 use super::up_axis::UpAxis;
@@ -59,7 +59,7 @@ pub struct Camera {
     pub yaw: f32,
     /// Angle above the horizon, in radians, a quarter turn at most.
     pub pitch: f32,
-    /// How far the picture is turned counter-clockwise, in radians.
+    /// The angle by which the picture is turned counter-clockwise, in radians.
     pub roll: f32,
     /// Distance from the target.
     pub distance: f32,
@@ -119,7 +119,7 @@ impl Camera {
         })
     }
 
-    /// Where the camera stands.
+    /// The pose of the camera.
     pub fn pose(&self) -> Pose {
         Pose { turn: self.turn(), target: self.target, distance: self.distance }
     }

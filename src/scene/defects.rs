@@ -1,5 +1,5 @@
-//! What is wrong with a mesh as it is drawn: each kind by its own colour and its own line, filling or sign, so that nobody needs
-//! colours to tell them apart.
+//! The defects of a mesh as they are drawn: each kind has its own colour and its own line, filling or sign, so that nobody needs colours to
+//! distinguish them.
 
 use super::buffers::{Frame, LineVertex, PinInstance, SurfaceVertex, Triangles};
 use super::colours::linear;
@@ -7,7 +7,7 @@ use crate::mesh::repair::{DefectKind, Defects};
 use glam::{DVec3, Vec3};
 use serde::Serialize;
 
-/// How a line is drawn.
+/// The style of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
@@ -37,7 +37,7 @@ impl Stroke {
     }
 }
 
-/// How faces are filled.
+/// The filling of faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
@@ -64,7 +64,7 @@ impl Fill {
     }
 }
 
-/// How a place is marked.
+/// The sign at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
@@ -90,11 +90,11 @@ impl Sign {
 pub struct Look {
     /// Red, green and blue, eight bits each.
     pub colour: u32,
-    /// How its lines are drawn; `None` where it has none.
+    /// The style of its lines; `None` where it has none.
     pub stroke: Option<Stroke>,
-    /// How its faces are filled; `None` where they are not painted.
+    /// The filling of its faces; `None` where they are not painted.
     pub fill: Option<Fill>,
-    /// How its places are marked; `None` where it has none.
+    /// The sign at its places; `None` where it has none.
     pub sign: Option<Sign>,
 }
 
@@ -183,7 +183,7 @@ pub fn surface_as_read(defects: &Defects, normals: &[DVec3], frame: &Frame) -> T
     }
 }
 
-/// What is drawn of all defects.
+/// The buffers in which all defects are drawn.
 pub fn painted(defects: &Defects, normals: &[DVec3], frame: &Frame) -> DefectBuffers {
     let mut buffers = DefectBuffers::default();
     let place = |v: u32| frame.place(defects.positions[v as usize]);

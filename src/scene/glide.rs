@@ -5,11 +5,11 @@ use super::pose::Pose;
 /// A way that began at a pose; its end is the camera's own pose, which may move meanwhile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Glide {
-    /// Where the way began.
+    /// The pose at the beginning of the way.
     pub from: Pose,
     /// When the way began, in milliseconds.
     pub begin: f64,
-    /// How long the way takes, in milliseconds.
+    /// The time that the way takes, in milliseconds.
     pub duration: f64,
 }
 

@@ -21,7 +21,7 @@ const STRENGTH: f64 = 3.0;
 /// The largest number of rounds in which points between vertices get values; what has none after them keeps none.
 const MOST_ROUNDS_BETWEEN: usize = 40;
 
-/// How much each vertex lies in a hollow: from -1 on sharp ridges to 1 in deep hollows, 0 where the surface is flat.
+/// The degree to which each vertex lies in a hollow: from -1 on sharp ridges to 1 in deep hollows, 0 where the surface is flat.
 pub fn hollows(mesh: &SurfaceMesh, normals: &TiVec<VertexId, DVec3>) -> TiVec<VertexId, f64> {
     let count = mesh.vertex_count();
     let mut degrees: TiVec<VertexId, f64> = ti_vec![0.0; count];
@@ -48,8 +48,8 @@ pub fn hollows(mesh: &SurfaceMesh, normals: &TiVec<VertexId, DVec3>) -> TiVec<Ve
     sum.into_iter().map(|x| (STRENGTH * x / (rounds + 1) as f64).clamp(-1.0, 1.0)).collect()
 }
 
-/// What a finer triangulation of the same surface takes over: values at its points that are vertices of the mesh (`known`), and
-/// between them, on edges and in faces, means of the neighbours.
+/// Carries values to a finer triangulation of the same surface: its points that are vertices of the mesh have the values of `known`, and
+/// those between them, on edges and in faces, the means of their neighbours.
 pub fn carried(known: &[Option<f32>], triangles: &[u32]) -> Vec<f32> {
     let mut values = known.to_vec();
     // Points that lie between are few edges away from a vertex; in a long thin face at most some dozens.

@@ -31,7 +31,7 @@ pub fn bend_weights(time: f32) -> [f32; KEYS.len()] {
     weights(f64::from(time)).map(|weight| weight as f32)
 }
 
-/// How points are off their straight ways, packed for the graphics card.
+/// The offsets of points from their straight ways, packed for the graphics card.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PackedWay {
     /// The largest coordinate of a bend, in scene units.
@@ -61,7 +61,7 @@ impl PackedWay {
         self.points.get(point).copied().unwrap_or_default()
     }
 
-    /// How far a point of a triangle is off its straight way at a time from 0 to 1.
+    /// The offset of a point of a triangle from its straight way at a time from 0 to 1.
     pub fn bend(&self, corners: [u32; 3], share: [f64; 3], time: f32) -> Vec3 {
         let by_key = weights(f64::from(time));
         let at = |v: u32| -> DVec3 {

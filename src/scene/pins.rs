@@ -13,10 +13,10 @@ pub const RAISED_HEAD: f32 = 7.0;
 /// From the place to the middle of the head, in pixels of the page.
 pub const STEM: f32 = 17.0;
 
-/// How far beside a stem a pointer still takes the pin, in pixels of the page.
+/// The distance beside a stem at which a pointer still takes the pin, in pixels of the page.
 const BESIDE_STEM: f32 = 4.0;
 
-/// How a pin stands out.
+/// The emphasis of a pin.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
 #[serde(rename_all = "lowercase")]
 pub enum Stand {
@@ -36,7 +36,7 @@ pub struct Pin {
     pub base: Vec3,
     /// Linear red, green, blue.
     pub colour: [f32; 3],
-    /// How the pin stands out.
+    /// The emphasis of the pin.
     pub stand: Stand,
 }
 
@@ -66,8 +66,8 @@ impl Pin {
     }
 }
 
-/// How far a pointer is from a pin that stands at `base`, both in pixels of the page with y up; `None` beyond `slack` pixels from
-/// its head and beside its stem.
+/// The distance of a pointer from a pin that stands at `base`, both in pixels of the page with y up; `None` beyond `slack` pixels from its
+/// head and beside its stem.
 pub fn distance_to_pin(base: Vec2, pointer: Vec2, slack: f32) -> Option<f32> {
     let from_head = (pointer - base - Vec2::new(0.0, STEM)).length() - HEAD;
     let from_stem = (pointer - base - Vec2::new(0.0, (pointer.y - base.y).clamp(0.0, STEM))).length();

@@ -1,4 +1,4 @@
-//! Where a plane cuts a surface, as a line to be drawn.
+//! The cut of a surface by a plane, as a line to be drawn.
 
 use super::buffers::{Frame, Triangles, ribbons};
 use super::colours::linear;

@@ -1,11 +1,11 @@
-//! Where a camera stands, and how it sees.
+//! The pose of a camera, and its projection.
 
 use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 
 /// Vertical angle of a wide view, in radians: 34 degrees, with little perspective.
 const FIELD_OF_VIEW: f32 = 0.6;
 
-/// Where a camera stands.
+/// The pose of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// Turns the camera's axes, which are right, up and back to the viewer, to the scene's.
@@ -19,14 +19,14 @@ pub struct Pose {
 /// A line of sight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it enters the view's depth.
+    /// The point where the ray enters the view's depth.
     pub origin: Vec3,
     /// Unit direction.
     pub direction: Vec3,
 }
 
 impl Pose {
-    /// Where the eye is.
+    /// The place of the eye.
     pub fn eye(&self) -> Vec3 {
         self.target + self.distance * self.back()
     }
@@ -68,7 +68,7 @@ impl Pose {
         Ray { origin, direction: (unproject(1.0) - origin).normalize() }
     }
 
-    /// Where a point is seen, from (-1, -1) to (1, 1), with its depth; `None` behind the camera.
+    /// The place of a point in the view, from (-1, -1) to (1, 1), with its depth; `None` behind the camera.
     pub fn project(&self, p: Vec3, aspect: f32) -> Option<Vec3> {
         let clip = self.view_projection(aspect) * p.extend(1.0);
         (clip.w > 0.0).then(|| clip.truncate() / clip.w)

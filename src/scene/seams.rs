@@ -1,4 +1,4 @@
-//! Where the texture that a map carries is cut: a triangulation has each point of a seam once for either side of it.
+//! The seams of the texture that a map carries, as lines to be drawn. A triangulation has each point of a seam once for either side of it.
 
 use super::buffers::{Triangles, ribbons};
 use super::colours::linear;
@@ -12,7 +12,8 @@ const BOUNDARY: u32 = 0xd0_1818;
 /// Texture coordinates that differ by less are the same: flat metrics close up around a vertex but for what their flow left over.
 const SAME: f32 = 1e-5;
 
-/// The seams of a closed surface, each side told once by its ends: there its two triangles have different texture coordinates.
+/// The seams of a closed surface, each given once as an edge by its ends: the two triangles at such an edge have different texture
+/// coordinates.
 pub fn seams(places: &[Vec3], uvs: &[Vec2], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let mut first = FxHashMap::default();
     let mut first_there =

@@ -10,7 +10,7 @@ use crate::mesh::packing::{PackedError, Packer, Unpacker};
 pub struct Shading {
     /// Unit normals by vertex.
     pub normals: Vec<[f32; 3]>,
-    /// How much each vertex lies in a hollow (positive) or on a ridge (negative), from -1 to 1.
+    /// The degree to which each vertex lies in a hollow (positive) or on a ridge (negative), from -1 to 1.
     pub hollows: Vec<f32>,
 }
 

@@ -12,10 +12,10 @@ use glam::{DVec2, DVec3};
 /// The part of the extent in which points count as lowest: as thick as feet. Chosen by hand.
 const SLICE: f64 = 0.06;
 
-/// How much wider the base must be than what is opposite, as a share of the body's box seen from above. Chosen by hand.
+/// The share of the body's box, seen from above, by which the base must be wider than the opposite end. Chosen by hand.
 const CLEAR: f64 = 0.12;
 
-/// How many times clearer than along another axis. Chosen by hand.
+/// The factor by which the difference must be larger than along another axis. Chosen by hand.
 const CLEARER: f64 = 1.3;
 
 /// The axis that seems to point up; `None` where the shape does not tell.
@@ -30,8 +30,8 @@ pub fn proposed_up(mesh: &SurfaceMesh) -> Option<UpAxis> {
     (axes[0].1 > CLEAR && axes[0].1 > CLEARER * axes[1].1).then(|| axes[0].0)
 }
 
-/// How wide the base is when this axis points up: area of the hull of the lowest points as a share of the box around all points,
-/// both seen from above; 0 where the centre is not above the base, so that the body would fall.
+/// The width of the base when this axis points up: the area of the hull of the lowest points as a share of the box around all points, both
+/// seen from above; 0 where the centre is not above the base, so that the body would fall.
 fn base(mesh: &SurfaceMesh, up: UpAxis, centre: DVec3) -> f64 {
     let up = up.direction().as_dvec3();
     let (across, along) = up.any_orthonormal_pair();

@@ -269,7 +269,7 @@ mod tests {
         settle(input, &SettlingOptions::default(), &mut Silent).unwrap()
     }
 
-    /// How far a place of the landmark that was clicked beside its place is from it, relative to the root of the area.
+    /// The distance between a place and the true place of the landmark that was clicked beside it, relative to the root of the area.
     fn miss(bodies: &Bodies, place: SurfacePoint) -> f64 {
         let right = turned(bodies.points[WRONG][0].position(&bodies.source));
         place.position(&bodies.target).distance(right) / bodies.target.area().sqrt()

@@ -11,12 +11,12 @@ use crate::mesh::VertexId;
 use crate::monitor::{Monitor, Portion};
 use typed_index_collections::TiVec;
 
-/// How attributes are brought over.
+/// The options of bringing attributes over.
 #[derive(Clone, Debug)]
 pub struct AttributeOptions {
     /// The direction: from which mesh to which.
     pub direction: Direction,
-    /// How a value at a vertex is made of those of the other mesh.
+    /// The method to compute a value at a vertex from those of the other mesh.
     pub carrying: Carrying,
     /// Names of columns that are labels. Whole-numbered columns of a PLY file that are no colours are labels anyway.
     pub labels: Vec<String>,
@@ -76,7 +76,7 @@ pub enum AttributeError {
     Value(#[from] ValueError),
 }
 
-/// What a column holds.
+/// The kind of values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Number,
@@ -103,8 +103,8 @@ const COLOURS: [&str; 12] = [
 /// The largest label: larger whole numbers are not exact.
 const LARGEST_LABEL: f64 = 1e15;
 
-/// The attributes of the giving file's vertices at the receiving file's vertices, told as they were given. Of vertices that were
-/// joined the first one's values are taken; a vertex that no face uses has none.
+/// The attributes of the giving file's vertices at the receiving file's vertices, with rows that name their vertices as the given ones do.
+/// Of vertices that were joined the first one's values are taken; a vertex that no face uses has none.
 ///
 /// # Errors
 /// [`AttributeError`].
@@ -158,7 +158,7 @@ pub fn attributes(
     Ok(VertexTable { rows, columns, left_out: Vec::new() })
 }
 
-/// What the column of vertex numbers is called on the other side.
+/// The name of the column of vertex numbers on the other side.
 fn numbers_name(rows: &Rows, direction: Direction) -> String {
     match rows {
         Rows::Numbered(name) if name != "vertex" => format!("{}_vertex", direction.names()[1]),

@@ -1,7 +1,7 @@
 //! Curves of one mesh on the other: polylines whose segments lie in faces, cut where they pass from piece to piece of the overlay.
 //!
-//! Within a piece the map is affine, so that a straight segment stays straight there. The curve that comes out lies on the image exactly:
-//! a cut on a side of a piece is told by that side's ends, so that it lies on an edge of the other mesh where the side does.
+//! Within a piece the map is affine, so that a straight segment stays straight there. The curve that comes out lies on the image exactly: a
+//! cut on a side of a piece is computed from that side's ends, so that it lies on an edge of the other mesh where the side does.
 
 use super::mapped_files::MappedFiles;
 use crate::export::curves::{CarriedCurve, CarriedPoint};
@@ -31,7 +31,7 @@ pub enum CurveError {
         name: String,
         /// The number of the point, from 0.
         point: usize,
-        /// What is wrong and what to do.
+        /// The problem and its remedy.
         problem: String,
     },
 }
@@ -45,7 +45,7 @@ const ON_SIDE: f64 = 1e-11;
 /// Parameters along a segment that differ by less are one.
 const SAME: f64 = 1e-12;
 
-/// Curves of one file's mesh on the other one's, both told in the files' numbers.
+/// Curves of one file's mesh on the other one's, both in the files' numbers.
 ///
 /// # Errors
 /// [`CurveError`] with the first point at fault.
@@ -145,8 +145,8 @@ impl<'a> CurveCarrier<'a> {
         Self { meshes, map, giver, pieces }
     }
 
-    /// The image of a polyline, as a polyline of which any two following points lie in one face. A closed one begins and ends at
-    /// the same point, which is told once.
+    /// The image of a polyline, as a polyline of which any two following points lie in one face. A closed one begins and ends at the same
+    /// point, which is listed once.
     ///
     /// # Errors
     /// The number of the first point that lies in no face with the point before it.

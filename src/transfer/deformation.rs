@@ -18,10 +18,10 @@ use crate::surface_map::correspondence::Correspondence;
 use glam::{DMat3, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-/// The number of pieces after which progress is told.
+/// The number of pieces after which progress is reported.
 const PIECES_A_STEP: usize = 1 << 14;
 
-/// What every frame needs: the overlay's shares, and the receiving mesh's system.
+/// The data that every frame needs: the overlay's shares, and the receiving mesh's linear system.
 pub struct DeformationTransfer<'a> {
     giving: &'a SurfaceMesh,
     receiving: &'a SurfaceMesh,

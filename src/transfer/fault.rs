@@ -25,7 +25,7 @@ pub enum TransferError {
     Given {
         /// The number of the file among them, from 0.
         number: usize,
-        /// What is wrong.
+        /// The fault.
         fault: GivenFault,
     },
     /// A mesh file's texture coordinates cannot be used.
@@ -33,10 +33,10 @@ pub enum TransferError {
     Mesh {
         /// The mesh at fault.
         side: MeshSide,
-        /// What is wrong.
+        /// The fault.
         fault: ChartFault,
     },
-    /// What came out could not be written as a file.
+    /// The result could not be written as a file.
     #[error("the file could not be written: {0}")]
     Unwritten(String),
 }
@@ -60,7 +60,7 @@ impl TransferError {
         }
     }
 
-    /// What is wrong with a file, but for the user's wish to stop, which is no fault.
+    /// The error about a fault of a file; a user's wish to stop is passed on as such.
     pub(super) fn given(number: usize, fault: impl Into<GivenFault>) -> Self {
         match fault.into() {
             GivenFault::Attribute(AttributeError::Value(ValueError::Cancelled(stop)))
@@ -70,7 +70,7 @@ impl TransferError {
         }
     }
 
-    /// What is wrong with a mesh's texture coordinates, likewise.
+    /// The error about a mesh's texture coordinates, likewise.
     pub(super) fn chart(side: MeshSide, fault: impl Into<ChartFault>) -> Self {
         match fault.into() {
             ChartFault::Bake(BakeError::Cancelled(stop)) => stop.into(),
@@ -79,7 +79,7 @@ impl TransferError {
     }
 }
 
-/// What is wrong with a file that was to be brought over.
+/// A fault of a file that was to be brought over.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GivenFault {
@@ -106,7 +106,7 @@ pub enum GivenFault {
     Deformation(#[from] DeformationError),
 }
 
-/// What is wrong with the texture coordinates of a mesh.
+/// A fault of the texture coordinates of a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChartFault {

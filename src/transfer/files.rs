@@ -23,10 +23,10 @@ pub struct FileTransfer<'a> {
     direction: Direction,
 }
 
-/// How values are brought over.
+/// The options of bringing values over.
 #[derive(Clone, Debug)]
 pub struct ValueOptions {
-    /// How a value at a vertex is made of those of the other mesh.
+    /// The method to compute a value at a vertex from those of the other mesh.
     pub carrying: Carrying,
     /// Names of columns that are labels.
     pub labels: Vec<String>,
@@ -180,7 +180,7 @@ impl<'a> FileTransfer<'a> {
         frames::read(self.giver(), bytes).map_err(|e| TransferError::given(number, e))
     }
 
-    /// What brings the motion of the giving mesh's frames to the receiving mesh.
+    /// The transfer of the motion of the giving mesh's frames to the receiving mesh.
     ///
     /// # Errors
     /// [`Cancelled`].

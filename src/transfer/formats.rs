@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-/// How values are written.
+/// The file formats of values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
@@ -26,7 +26,7 @@ impl ValueFormat {
     }
 }
 
-/// How curves are written.
+/// The file formats of curves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]

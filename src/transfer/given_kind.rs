@@ -1,10 +1,10 @@
-//! What a file may hold that is to be brought over, told by its content alone, whatever mesh it is of.
+//! The possible contents of a file that is to be brought over, recognised by its content alone, whatever mesh it belongs to.
 
 use crate::io::vertex_table::{self, AnnouncedColumn, TableError};
 use crate::io::{Format, OtherFile, curve_file, detect};
 use serde::Serialize;
 
-/// What a file may be taken for.
+/// A kind of content that a file may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "snake_case")]
@@ -19,10 +19,10 @@ pub enum GivenKind {
     Frames,
 }
 
-/// What a file may hold.
+/// The possible contents of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GivenFile {
-    /// What it may be taken for, the likeliest first; at least one.
+    /// The kinds of content that the file may have, the likeliest first; at least one.
     pub kinds: Vec<GivenKind>,
     /// The columns of values that it has.
     pub columns: Vec<AnnouncedColumn>,

@@ -1,8 +1,8 @@
 //! Deformation gradients of a mesh's triangles between its own shape and another one.
 //!
-//! On a triangle's plane the gradient is told by its sides. Across it Sumner & Popovic (2004) take the normal to the new normal, as
-//! long as the root of the area tells; that is right for rotations and scalings. An affine map takes normals elsewhere, so where the
-//! whole shape is an affine image of the mesh, the normal goes as in that map.
+//! On a triangle's plane the gradient follows from its sides. Across it Sumner & Popovic (2004) take the normal to the new normal, scaled
+//! with the root of the area; that is right for rotations and scalings. An affine map takes normals elsewhere, so where the whole shape is
+//! an affine image of the mesh, the normal goes as in that map.
 
 use crate::mesh::{FaceId, SurfaceMesh, VertexId};
 use glam::{DMat3, DVec3};

@@ -1,4 +1,4 @@
-//! What maps are for: values, curves, shapes and motions of one mesh brought to the other, by the pieces of a finished map.
+//! Transfer of values, curves, shapes and motions of one mesh to the other, by the pieces of a finished map.
 //!
 //! Nothing here computes a map. Everything is exact on the overlay: on each of its triangles the map is affine.
 

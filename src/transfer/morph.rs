@@ -41,7 +41,7 @@ impl<'a> Morph<'a> {
         Self { mesh, end, gradients, turns, poisson: Poisson::new(mesh), areas: mesh.vertex_areas() }
     }
 
-    /// How far the vertices are off their straight ways at a time, 0 at the mesh and 1 at the other shape.
+    /// The offsets of the vertices from their straight ways at a time, 0 at the mesh and 1 at the other shape.
     ///
     /// # Errors
     /// [`DeformationError`].
@@ -97,7 +97,7 @@ pub struct MorphPoints<'a> {
     pub faces: &'a [FaceId],
 }
 
-/// How points go from a mesh to another shape: straight, and off the straight line by bends that [`crate::math::bends`] mixes.
+/// The way of points from a mesh to another shape: a straight line, with offsets from it that [`crate::math::bends`] mixes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Way {
     /// The distance of each point from the straight line at each of the [`KEYS`], as a vector.

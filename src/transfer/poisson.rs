@@ -102,7 +102,7 @@ fn cotangent(mesh: &SurfaceMesh, h: HalfedgeId) -> f64 {
     cotangent_between(tail - apex, head - apex)
 }
 
-/// How much a face counts: 1, but for the thinnest.
+/// The weight of a face: 1, except for the thinnest.
 fn face_weight(mesh: &SurfaceMesh, f: FaceId) -> f64 {
     let largest = f.halfedges().map(|h| cotangent(mesh, h).abs()).into_iter().fold(0.0, f64::max);
     if largest > LARGEST_COTANGENT { LARGEST_COTANGENT / largest } else { 1.0 }

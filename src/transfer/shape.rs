@@ -11,7 +11,7 @@ use glam::DVec3;
 use serde::Serialize;
 use typed_index_collections::TiVec;
 
-/// How near a mesh in the shape of another one comes to it. Lengths are those of the files.
+/// Measures of how near a mesh in the shape of another one comes to it. Lengths are in the units of the files.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShapeReport {
     /// Number of triangles of the mesh in the other's shape.
@@ -26,7 +26,7 @@ pub struct ShapeReport {
     pub from_shape: Distances,
     /// The larger of both largest distances: the Hausdorff distance, as far as samples tell.
     pub hausdorff: f64,
-    /// How well the normals agree.
+    /// The agreement of the normals.
     pub normals: NormalReport,
 }
 
@@ -69,7 +69,7 @@ impl ShapeReport {
 /// The number of samples on the faces of a surface, about.
 const SAMPLES: usize = 100_000;
 
-/// The number of faces after which progress is told.
+/// The number of faces after which progress is reported.
 const FACES_A_STEP: usize = 1 << 10;
 
 /// The giving mesh (source of a direction) with its vertices at their images on the other one.

@@ -29,7 +29,7 @@ pub struct GivenTexture<'a> {
     pub picture: &'a Picture,
 }
 
-/// How a texture is baked.
+/// The options of baking a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BakeOptions {
     /// The direction: from which mesh to which.
@@ -77,7 +77,7 @@ const MOST_COVERED: f64 = 4.0;
 /// The distance by which texture coordinates may leave the picture, by rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// The number of faces after which progress is told.
+/// The number of faces after which progress is reported.
 const FACES_A_STEP: usize = 1 << 10;
 
 /// Texture coordinates by face of a mesh from those of its file's polygons, corner by corner.

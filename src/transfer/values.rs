@@ -46,7 +46,7 @@ pub enum ValueError {
 /// Values by vertex of a mesh.
 pub type Values = TiVec<VertexId, f64>;
 
-/// The number of pieces after which progress is told.
+/// The number of pieces after which progress is reported.
 const PIECES_A_STEP: usize = 1 << 14;
 
 /// The accuracy of the projection, in units of its right-hand side.

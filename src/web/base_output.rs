@@ -20,7 +20,7 @@ impl MapOutput {
         self.shown().base.as_ref().map(|base| base.sides.concat()).unwrap_or_default()
     }
 
-    /// Where the cones are on the source (0) or the target (1), three numbers each.
+    /// The positions of the cones on the source (0) or the target (1), three numbers each.
     #[wasm_bindgen(js_name = baseCones)]
     pub fn base_cones(&self, side: usize) -> Result<Vec<f32>, JsValue> {
         Ok(self.base_shape(side)?.map(|shape| flat3(&shape.cones)).unwrap_or_default())

@@ -38,7 +38,7 @@ export interface RunListener {
 
 #[wasm_bindgen]
 extern "C" {
-    /// What a run tells and asks while it goes.
+    /// The functions of the page that a run calls while it goes.
     #[wasm_bindgen(typescript_type = "RunListener")]
     pub type RunListener;
     #[wasm_bindgen(method, catch)]
@@ -78,7 +78,7 @@ pub(super) struct Messenger<'a> {
     asked: f64,
     wants_result: bool,
     stage: Option<(Stage, f64)>,
-    /// When the page was last told.
+    /// The time of the last report to the page.
     told: f64,
     seconds: BTreeMap<String, f64>,
     progress: Progress,
@@ -173,7 +173,7 @@ impl Monitor for Messenger<'_> {
     }
 }
 
-/// What the views show of a map.
+/// The parts of a map that the views show.
 pub(super) struct Shown {
     pub common: CommonMesh,
     /// Distortion at each point of `common`, 1 for none; empty for the thesis' method.
@@ -192,7 +192,7 @@ pub(super) struct Shown {
 }
 
 impl Shown {
-    /// What the views show of the map of a run, whose patch lines are moved out of `result`.
+    /// The parts of the map of a run that the views show; the patch lines are moved out of `result`.
     pub(super) fn of_run(job: &Job, result: &mut MapResult, true_map: Option<fn(DVec3) -> DVec3>) -> Self {
         let mut common = result.common.clone();
         // Where a landmark lies inside a face the mapped mesh has more faces than the checked one.
@@ -232,7 +232,7 @@ impl MapOutput {
         Self { shown, run: None }
     }
 
-    /// What the views show of it.
+    /// The parts of the map that the views show.
     pub(super) fn shown(&self) -> &Shown {
         &self.shown
     }
@@ -261,7 +261,7 @@ pub fn run_map(
     let choices: Choices = serde_json::from_str(options).map_err(|e| failure("options", e))?;
     let options = PipelineOptions::from(choices);
     let failed = |error: JobError| failure(error.code(), error);
-    // What cannot be read is told by the job.
+    // The job reports landmarks that cannot be read.
     let given = landmark_file::read(landmarks.as_bytes()).unwrap_or_default();
     messenger.plan(planned_stages(&given, &options));
     let mut job = read_job([source, target], landmarks, &mut messenger)?;

@@ -12,11 +12,11 @@ use crate::transfer::{Carrying, Raster, USUAL_GIVER};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
-/// What is usual where nothing is chosen, and what the core takes at least and at most.
+/// The usual choices where nothing is chosen, and the limits of the core.
 #[derive(Serialize, tsify::Tsify)]
 #[serde(rename_all = "camelCase")]
 pub struct CoreValues {
-    /// What is chosen of a run.
+    /// The usual choices of a run.
     choices: Choices,
     /// The number of landmark pairs that a map needs.
     least_landmarks: usize,
@@ -36,7 +36,7 @@ pub struct CoreValues {
     scheme: Scheme,
     /// The mesh that gives what is brought across.
     giver: MeshSide,
-    /// How values are brought across.
+    /// The usual method to bring values across.
     carrying: Carrying,
     /// Texels in a row of a texture that is baked.
     texture_size: u16,

@@ -1,4 +1,4 @@
-//! What is wrong with a mesh file: searched here, shown by the page.
+//! The search for the defects of a mesh file, which the page shows.
 
 use super::failure;
 use super::loaded_mesh::LoadedMesh;
@@ -20,8 +20,8 @@ fn packed(defects: &Defects) -> Vec<u8> {
     packer.into_bytes()
 }
 
-/// What is wrong with a mesh file, packed. `allowed` is as for `repairMesh`: parts that may go and handles that may be cut are told all
-/// the same.
+/// The defects of a mesh file, packed. `allowed` is as for `repairMesh`; parts that may be dropped and handles that may be cut are listed
+/// all the same.
 ///
 /// # Errors
 /// `{"code": "file" | "mesh" | "options", "message"}` where there is nothing to look at.
@@ -31,7 +31,7 @@ pub fn mesh_defects(bytes: &[u8], allowed: &str) -> Result<Vec<u8>, JsValue> {
     Ok(packed(&found(bytes, &options)?))
 }
 
-/// What was wrong with the file of a mesh that was repaired, with the caps that it got, packed.
+/// The defects of the file of a mesh that was repaired, with the caps that the repair made, packed.
 ///
 /// # Errors
 /// As `meshDefects`.

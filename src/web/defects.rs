@@ -1,4 +1,4 @@
-//! What is wrong with a mesh, for the page: a list, and what the views draw of it.
+//! The defects of a mesh for the page: a list, and the buffers that the views draw.
 
 use super::failure;
 use crate::mesh::packing::{PackedError, Unpacker};
@@ -11,7 +11,7 @@ use wasm_bindgen::prelude::*;
 /// The largest number of defects of one kind that are listed.
 const LISTED: usize = 50;
 
-/// What is wrong with a mesh, or was before it was repaired.
+/// The defects of a mesh, or those that it had before it was repaired.
 #[wasm_bindgen]
 pub struct MeshDefects {
     pub(super) defects: Defects,

@@ -1,4 +1,4 @@
-//! What the module does when it is loaded, and how it tells errors.
+//! The start of the module when it is loaded, and its errors.
 
 use serde_json::json;
 use wasm_bindgen::prelude::*;

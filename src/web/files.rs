@@ -1,4 +1,4 @@
-//! What files hold and need, before a mesh is read; and whether landmarks fit a mesh.
+//! The contents of files and the further files that they need, before a mesh is read; and whether landmarks fit a mesh.
 
 use super::loaded_mesh::LoadedMesh;
 use super::{failure, mesh_side};
@@ -73,7 +73,7 @@ impl PackedSet {
         self.set.bytes.clone()
     }
 
-    /// How many of the pictures that the materials name were found.
+    /// The number of pictures that the materials name and that were found.
     pub fn found(&self) -> usize {
         self.set.found
     }

@@ -27,7 +27,7 @@ pub struct LandmarkFormatInfo {
     holds: Holds,
 }
 
-/// What a landmark file holds.
+/// The contents of a landmark file.
 #[wasm_bindgen]
 #[derive(Clone, Copy, Debug)]
 pub enum LandmarkContent {
@@ -46,7 +46,7 @@ pub struct ReadMark {
     label: String,
     /// A vertex or a point of a face; `null` where the file says that it was not placed.
     point: Option<LandmarkPoint>,
-    /// How far off the surface it was, in the units of the mesh.
+    /// The distance of the given point from the surface, in the units of the mesh.
     distance: f64,
 }
 
@@ -55,7 +55,7 @@ pub struct ReadMark {
 pub struct ReadSide {
     /// In the order of the file.
     marks: Vec<ReadMark>,
-    /// What there is to know about them, as sentences.
+    /// Remarks on the landmarks, as sentences.
     remarks: Vec<String>,
 }
 
@@ -64,7 +64,7 @@ pub struct ReadSide {
 pub struct OwnFileRead {
     /// The pairs.
     file: LandmarkFile,
-    /// What there is to know about their file, as sentences.
+    /// Remarks on the file of the landmarks, as sentences.
     remarks: Vec<String>,
 }
 
@@ -73,9 +73,9 @@ pub struct OwnFileRead {
 pub struct ReadPairs {
     /// As a file of the program's own.
     file: LandmarkFile,
-    /// How far off the surface each point of a pair was, in the units of its mesh.
+    /// The distance of each given point of a pair from the surface, in the units of its mesh.
     distances: Vec<[f64; 2]>,
-    /// What there is to know about them, as sentences.
+    /// Remarks on the landmarks, as sentences.
     remarks: Vec<String>,
 }
 
@@ -119,7 +119,7 @@ pub fn landmark_endings() -> String {
     endings.into_iter().map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(",")
 }
 
-/// What a file holds, if it is a landmark file; `undefined` for other files.
+/// The contents of a landmark file; `undefined` for other files.
 ///
 /// # Errors
 /// `{"code": "landmarks", "message"}` for a landmark file that cannot be read.

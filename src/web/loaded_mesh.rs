@@ -14,7 +14,7 @@ use crate::scene::Shading;
 use std::rc::Rc;
 use wasm_bindgen::prelude::*;
 
-/// What a mesh's file gives it of a look.
+/// The kind of look that a mesh has from its file.
 #[wasm_bindgen]
 #[derive(Clone, Copy, Debug)]
 pub enum LookKind {
@@ -78,7 +78,7 @@ impl LoadedMesh {
         self.checked.mesh.face_count()
     }
 
-    /// What tells the mesh from others, as a map file has it, in hexadecimal digits.
+    /// The hash of the mesh as a map file has it, in hexadecimal digits.
     #[wasm_bindgen(js_name = checkedHash)]
     pub fn checked_hash(&self) -> String {
         Hash::of_checked(&self.checked).to_string()
@@ -90,7 +90,7 @@ impl LoadedMesh {
         self.checked.turned_faces()
     }
 
-    /// What its file gives it of a look.
+    /// The kind of look that the mesh has from its file.
     #[wasm_bindgen(js_name = lookKind)]
     pub fn look_kind(&self) -> LookKind {
         match self.look.as_deref() {
@@ -100,7 +100,7 @@ impl LoadedMesh {
         }
     }
 
-    /// How many pictures are laid on it.
+    /// The number of pictures that are laid on the mesh.
     #[wasm_bindgen(getter, js_name = pictureCount)]
     pub fn picture_count(&self) -> usize {
         self.look.as_ref().map_or(0, |look| look.pictures.len())

@@ -1,4 +1,4 @@
-//! What a map file says of itself before it is opened.
+//! The header of a map file, read before the file is opened.
 
 use super::failure;
 use crate::map_file;

@@ -31,8 +31,8 @@ impl FoundLandmarks {
         triangles.into_iter().flatten().flatten().map(|v| v.0).collect()
     }
 
-    /// Where the vertices of the coarse source are on the source (0) or on the target (1), three coordinates each: the middle of
-    /// their bounding box is 0 and half its diagonal 1. Empty for a candidate that there is not.
+    /// The places of the vertices of the coarse source on the source (0) or on the target (1), three coordinates each: the middle of their
+    /// bounding box is 0 and half its diagonal 1. Empty for a candidate that there is not.
     pub fn places(&self, candidate: usize, side: usize) -> Result<Vec<f32>, JsValue> {
         let side = mesh_side(side)?;
         let places = self.pictures.get(candidate).map(|picture| match side {

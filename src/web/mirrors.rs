@@ -25,7 +25,7 @@ enum Wish {
     Points { points: [LandmarkPoint; 2] },
 }
 
-/// What is answered.
+/// The answer of the search for a mirror plane.
 #[derive(Serialize)]
 struct Answer {
     plane: PlaneNumbers,

@@ -10,7 +10,7 @@ use crate::scene::morph::{PackedWay, matrix};
 use glam::{DVec3, Mat4};
 use wasm_bindgen::prelude::*;
 
-/// How a map's points go to the target's shape, as the views take it.
+/// The way of a map's points to the target's shape, as the views take it.
 #[wasm_bindgen]
 pub struct MorphWay {
     laid: Mat4,

@@ -48,7 +48,7 @@ impl FlatPlanes {
         Ok(mesh.triangles().iter().flatten().map(|v| v.0).collect())
     }
 
-    /// Where its vertices are in the coordinates of the checked mesh, three numbers each.
+    /// The positions of its vertices in the coordinates of the checked mesh, three numbers each.
     pub fn positions(&self, side: usize) -> Result<Vec<f32>, JsValue> {
         Ok(flat3(&self.job.positions()[mesh_side(side)?]))
     }

@@ -18,7 +18,7 @@ use wasm_bindgen::prelude::*;
 pub struct MeshReport {
     checked: Option<CheckedMesh>,
     look: Option<Look>,
-    /// What of its look cannot be used.
+    /// Remarks on the parts of the mesh's look that cannot be used.
     remarks: Vec<String>,
     report: RepairReport,
     /// The coordinate system that its file names.
@@ -37,14 +37,14 @@ impl MeshReport {
         Ok(LoadedMesh::new(checked, self.space, self.look.take()))
     }
 
-    /// What was repaired, in a sentence without a full stop ("2 holes were capped (0.4 % of the area), 13 duplicate vertices were
-    /// joined"); empty where the mesh was good as given.
+    /// The repairs, in a sentence without a full stop ("2 holes were capped (0.4 % of the area), 13 duplicate vertices were joined"); empty
+    /// where the mesh was good as given.
     pub fn sentence(&self) -> String {
         let report = &self.report;
         if report.fault.is_some() { report.sentence() } else { String::new() }
     }
 
-    /// What of its look cannot be used, each in a sentence without a full stop.
+    /// Remarks on the parts of the mesh's look that cannot be used, each a sentence without a full stop.
     pub fn remarks(&self) -> Vec<String> {
         self.remarks.clone()
     }

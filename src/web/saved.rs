@@ -66,7 +66,7 @@ impl WrappedBase {
         self.bytes.clone()
     }
 
-    /// What became of it.
+    /// The outcome of wrapping, in sentences.
     pub fn sentence(&self) -> String {
         self.sentence.clone()
     }
@@ -104,7 +104,7 @@ impl SavedMap {
         crate::io::landmark_file::write(&self.open.taken().map().landmarks)
     }
 
-    /// What was chosen of the run, nothing left out, as JSON; `undefined` where this version does not know it.
+    /// All choices of the run, as JSON; `undefined` where this version does not know one of them.
     pub fn options(&self) -> Option<String> {
         let choices: Choices = serde_json::from_value(self.open.taken().map().options.clone()).ok()?;
         serde_json::to_string(&choices).ok()

@@ -36,7 +36,7 @@ pub fn record_simplifications(
     Ok(Simplifications { stages, positions: job.positions() })
 }
 
-/// What is collapsed of both meshes, to be drawn on both.
+/// The collapses of both meshes, to be drawn on both.
 #[wasm_bindgen]
 #[derive(Clone, Copy, Debug)]
 pub enum CollapsedMesh {
@@ -80,7 +80,7 @@ pub fn record_carried_simplification(
 
 #[wasm_bindgen]
 impl Simplifications {
-    /// Where the vertices of the source (0) or the target (1) are, three numbers each.
+    /// The positions of the vertices of the source (0) or the target (1), three numbers each.
     pub fn positions(&self, side: usize) -> Result<Vec<f32>, JsValue> {
         Ok(flat3(&self.positions[mesh_side(side)?]))
     }
@@ -97,7 +97,7 @@ impl Simplifications {
         Ok(stages.flat_map(|stage| stage.triangles.iter().flatten().map(|v| v.0)).collect())
     }
 
-    /// How many triangles each stage has.
+    /// The number of triangles of each stage.
     pub fn counts(&self, side: usize) -> Result<Vec<u32>, JsValue> {
         Ok(self.stages[mesh_side(side)?].iter().map(|stage| stage.triangles.len() as u32).collect())
     }

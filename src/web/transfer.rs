@@ -14,16 +14,16 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
-/// What a file may hold that is to be brought across.
+/// The possible contents of a file that is to be brought across.
 #[derive(Serialize, tsify::Tsify)]
 pub struct GivenFileReport {
-    /// What it may be taken for, the likeliest first; at least one.
+    /// The kinds of content that the file may have, the likeliest first; at least one.
     kinds: Vec<GivenKind>,
     /// The names of the columns of values that it has.
     columns: Vec<String>,
 }
 
-/// What is to be brought across, and how.
+/// The content that is to be brought across, and the method.
 #[derive(Deserialize, tsify::Tsify)]
 #[serde(deny_unknown_fields)]
 pub struct TransferWish {
@@ -38,7 +38,7 @@ pub struct TransferWish {
 pub enum TransferWhat {
     /// Values of vertices.
     Values {
-        /// How a value at a vertex is made of those of the other mesh.
+        /// The method to compute a value at a vertex from those of the other mesh.
         method: Carrying,
         /// Names of columns that are labels.
         labels: Vec<String>,
@@ -77,7 +77,7 @@ pub fn given_file_report(bytes: &[u8]) -> Result<String, JsValue> {
     serde_json::to_string(&report).map_err(|e| failure("transfer", e))
 }
 
-/// What was brought across.
+/// The files that were brought across.
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct BroughtFiles {
@@ -87,7 +87,7 @@ pub struct BroughtFiles {
 
 #[wasm_bindgen]
 impl BroughtFiles {
-    /// How many files there are.
+    /// The number of files.
     pub fn count(&self) -> usize {
         self.files.len()
     }
@@ -102,7 +102,7 @@ impl BroughtFiles {
         self.files.get_mut(number).map(|(_, bytes)| std::mem::take(bytes)).unwrap_or_default()
     }
 
-    /// What there is to know about them; `undefined` for nothing.
+    /// A remark on the files; `undefined` for none.
     pub fn remark(&self) -> Option<String> {
         self.remark.clone()
     }

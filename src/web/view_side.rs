@@ -67,10 +67,10 @@ pub(super) struct Side {
     pub overlay: Option<Mesh>,
     /// The map's triangles in the look of the mesh that gives its look.
     pub carried: Option<Mesh>,
-    /// What is laid on the side's own look; `None` where a picture has not come.
+    /// The pictures that are laid on the mesh by its look; `None` where a picture has not come.
     pub pictures: Vec<Option<Picture>>,
     pub lines: Option<Mesh>,
-    /// Where the texture that the map carries is cut.
+    /// The seams of the texture that the map carries.
     pub seams: Option<Mesh>,
     /// The mesh with the places to which a map that is being made takes its vertices.
     pub preview: Option<Preview>,
@@ -90,9 +90,9 @@ pub(super) struct Side {
     pub probe: Option<Vec3>,
     /// The plane that mirrors the mesh, while it is shown.
     pub mirror: Option<ShownMirror>,
-    /// What is wrong with a mesh, which may be one that is shown in the place of the side's own.
+    /// The defects of a mesh, which may be one that is shown in the place of the side's own.
     pub defects: Option<ShownDefects>,
-    /// How the side's own mesh was looked at before another one was shown in its place.
+    /// The camera on the side's own mesh before another one was shown in its place.
     covered: Option<Covered>,
 }
 
@@ -179,14 +179,14 @@ pub(super) struct Lit {
     pub lines: Option<Mesh>,
 }
 
-/// How a mesh was looked at.
+/// The camera on a mesh that another one covers.
 #[derive(Clone, Copy)]
 struct Covered {
     camera: Camera,
     look: Look,
 }
 
-/// What is wrong with a mesh, to be drawn.
+/// The defects of a mesh, to be drawn.
 pub(super) struct ShownDefects {
     pub frame: Frame,
     /// The mesh as read, where it is shown in the place of the side's own.
@@ -218,7 +218,7 @@ pub(super) struct SideMesh {
 }
 
 impl Side {
-    /// Where the camera stands at a time, in milliseconds.
+    /// The pose of the camera at a time, in milliseconds.
     pub fn pose(&self, now: f64) -> Pose {
         let end = self.camera.pose();
         self.glide.map_or(end, |glide| glide.at(now, end))
@@ -350,7 +350,7 @@ impl Side {
         Ok(())
     }
 
-    /// Where a landmark point is, in scene coordinates; `None` where the mesh has no such point.
+    /// The place of a landmark point, in scene coordinates; `None` where the mesh has no such point.
     pub fn place_of(&self, point: LandmarkPoint) -> Option<Vec3> {
         let mesh = self.mesh.as_ref()?;
         Some(mesh.frame.place(mesh.surface_point(point)?.position(&mesh.checked.mesh)))
@@ -399,7 +399,7 @@ impl Side {
         self.moved().face(place, normal.normalize_or(DVec3::Z).as_vec3());
     }
 
-    /// Where a pin stands.
+    /// The place where a pin stands.
     pub fn base(&self, pin: usize) -> Option<Vec3> {
         Some(self.landmarks.get(pin).copied().flatten()?.pin.base)
     }
@@ -427,14 +427,14 @@ impl Side {
         found.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
     }
 
-    /// Where the heads of the pins are: x and y from -1 to 1, y up, and 1 where the body does not hide it.
+    /// The places of the heads of the pins: x and y from -1 to 1, y up, and 1 where the body does not hide the head.
     pub fn heads(&self, now: f64, pixel_ratio: f32) -> Vec<f32> {
         let stem = 2.0 * STEM * pixel_ratio / self.rectangle[3].max(1.0);
         let place = |mark: &Option<Landmark>| self.label(mark.map(|mark| mark.pin.base), stem, now);
         self.landmarks.iter().flat_map(place).collect()
     }
 
-    /// Where the suggested points are, likewise.
+    /// The places of the suggested points, likewise.
     pub fn suggested(&self, now: f64) -> Vec<f32> {
         self.suggestions.iter().flat_map(|p| self.label(*p, 0.0, now)).collect()
     }
@@ -515,7 +515,7 @@ impl SideMesh {
         true
     }
 
-    /// How much points of a finer triangulation lie in hollows; `positions` are in input coordinates, three numbers a point.
+    /// The degree to which points of a finer triangulation lie in hollows; `positions` are in input coordinates, three numbers a point.
     pub fn hollows_at(&self, positions: &[f32], triangles: &[u32]) -> Vec<f32> {
         let bits = |p: [f32; 3]| p.map(f32::to_bits);
         let places = self.checked.mesh.positions().iter().map(|p| bits(p.as_vec3().to_array()));

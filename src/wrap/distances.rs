@@ -1,4 +1,4 @@
-//! How far the laid base and the scan are from each other, on the skin that both have.
+//! The distances between the laid base and the scan, on the skin that both have.
 
 use super::input::WrapInput;
 use super::samples::{Sample, samples};

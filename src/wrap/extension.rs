@@ -1,4 +1,4 @@
-//! What has no image on the scan is laid on as rigidly as it can be from what has one.
+//! The parts of the base without an image on the scan are laid beside those that have one, as rigidly as possible.
 
 use super::images::{Frame, Images, frame};
 use super::rigid_energy::{Anchor, RigidEnergy};

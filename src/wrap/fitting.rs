@@ -150,7 +150,7 @@ impl<'a> System<'a> {
         Self { base, planes, stay, even, diagonal }
     }
 
-    /// Where the vertices should go from where they are; `moved` is their way so far.
+    /// The steps that the vertices should make from their present places; `moved` are their steps so far, summed.
     fn steps(&self, moved: &TiVec<VertexId, DVec3>) -> Vec<DVec3> {
         let n = self.base.vertex_count();
         let mut right = vec![DVec3::ZERO; n];

@@ -1,4 +1,4 @@
-//! Where the map takes the base's vertices.
+//! The images of the base's vertices under the map.
 
 use super::input::WrapInput;
 use crate::math::scalar::{ln, max};
@@ -37,7 +37,7 @@ impl Images {
     }
 }
 
-/// How the surface around a vertex is turned and stretched.
+/// The rotation and stretch of the surface around a vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     /// The rotation of the surface around the vertex.

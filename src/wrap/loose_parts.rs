@@ -11,7 +11,7 @@ use typed_index_collections::TiVec;
 /// The largest number of parts that are moved one by one; more move as the base as a whole does. Chosen by hand.
 const MOST_PARTS: usize = 256;
 
-/// How loose parts follow a laid base.
+/// The motion by which loose parts follow a laid base.
 pub struct LooseParts<'a> {
     base: &'a SurfaceMesh,
     onto: &'a TiVec<VertexId, DVec3>,
@@ -56,7 +56,7 @@ impl<'a> LooseParts<'a> {
         part.iter().map(|p| similarity.apply(*p)).collect()
     }
 
-    /// How the surface near a part moves: what is within its size counts most.
+    /// The similarity by which the surface near a part moves; vertices within the size of the part count most.
     fn near(&self, part: &[DVec3]) -> Similarity {
         let middle = part.iter().sum::<DVec3>() / part.len().max(1) as f64;
         let size = part.iter().map(|p| p.distance(middle)).fold(0.0, max);

@@ -15,7 +15,7 @@ use glam::DVec3;
 use serde::Serialize;
 use typed_index_collections::TiVec;
 
-/// How a vertex came to its place.
+/// The way in which a vertex of the base was placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Laid {
@@ -30,7 +30,7 @@ pub enum Laid {
 pub struct Wrapped {
     /// The place of each vertex of the base, in the scan's coordinates.
     pub positions: TiVec<VertexId, DVec3>,
-    /// How each vertex came there; `Extended` for vertices that only caps have.
+    /// The way in which each vertex was placed; `Extended` for vertices that only caps have.
     pub laid: TiVec<VertexId, Laid>,
     /// The faces of the base's skin that look the wrong way; empty where all is well.
     pub flipped: Vec<FaceId>,

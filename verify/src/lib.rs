@@ -21,15 +21,15 @@
 //!    homeomorphism from S onto T that keeps the orientation (reverses it, for a map to the mirror image): one-to-one,
 //!    onto, continuous with its inverse, and the pieces tile every face of S and of T.
 //! 6. Landmarks that are vertices of both meshes go to their partners exactly: they share a vertex of K. For landmarks inside
-//!    faces the distances are told.
+//!    faces the distances are reported.
 //!
 //! Points 1 to 3 are combinatorial, points 4 and 5 exact arithmetic, and 6 is both. The matrices of pieces, by which images of points are
-//! answered, are f64 and carry f64 corners only nearly: how far they are from the homeomorphism is told in f64 ([`Matrices`]), and
+//! answered, are f64 and carry f64 corners only nearly: how far they are from the homeomorphism is reported in f64 ([`Matrices`]), and
 //! more than the format allows is refused.
 //!
 //! Where corners were rounded so that triangles have no area or a negative one of less than [`WITHIN_ROUNDING`] of a face, the
 //! map is not proved ([`Proof::is_exact`]). Then the rest of the argument gives: outside of these triangles' images, whose area is
-//! told, each point has exactly one image.
+//! reported, each point has exactly one image.
 //!
 //! # What is not proved
 //!

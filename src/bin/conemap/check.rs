@@ -44,7 +44,7 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     }
 }
 
-/// What is known of a mesh, stable as JSON.
+/// The report on a mesh, stable as JSON.
 #[derive(Serialize)]
 struct CheckReport {
     /// Whether the mesh can be mapped: as it is, or repaired where that was asked for.
@@ -55,7 +55,7 @@ struct CheckReport {
     fault: Option<Fault>,
     /// Why it cannot be repaired.
     refusal: Option<Fault>,
-    /// What the repair changes; empty where there is none.
+    /// The changes of the repair; empty where there is none.
     changes: Vec<ChangeReport>,
     /// Share of the repaired surface's area that is caps; `null` where the mesh cannot be repaired.
     cap_share: Option<f64>,

@@ -38,7 +38,7 @@ impl Deadline {
         Self { begun, time, doing }
     }
 
-    /// What the program does from now on.
+    /// Sets the text for what the program does from now on.
     pub fn tell(&self, doing: &'static str) {
         *self.doing.lock().unwrap_or_else(PoisonError::into_inner) = doing;
     }

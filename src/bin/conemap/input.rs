@@ -15,7 +15,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
-/// What the command line fails with: a sentence.
+/// The error with which the command line fails: a sentence.
 pub type Failure = Box<dyn Error>;
 
 /// Reads a file, no more of it than a mesh may have: a device never ends.
@@ -70,8 +70,8 @@ pub fn mesh_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(packed.bytes)
 }
 
-/// What comes with a mesh file for its look: the materials that an OBJ file names, with their pictures, from its own folder and those below;
-/// or else a picture beside it that is called like it.
+/// The companion of a mesh file for its look: the materials that an OBJ file names, with their pictures, from its own folder and those
+/// below; or else a picture beside it with its name.
 pub fn companion(path: &Path, mesh: &[u8]) -> Option<Vec<u8>> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let is_below = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
@@ -101,7 +101,7 @@ impl<'a> MeshSets<'a> {
         Self { paths, meshes, companions: [0, 1].map(|k| companion(paths[k], meshes[k])) }
     }
 
-    /// The look that a map of these files carries; what cannot be used of it is told.
+    /// The look that a map of these files carries; prints remarks on the parts that cannot be used.
     pub fn look(&self, read: impl FnOnce([LookFiles<'_>; 2]) -> MapLook) -> MapLook {
         let files = |k: usize| LookFiles { mesh: self.meshes[k], companion: self.companions[k].as_deref() };
         let look = read([files(0), files(1)]);
@@ -126,7 +126,7 @@ pub fn mesh(path: &Path, faults: FaultArguments) -> Result<CheckedMesh, Failure>
     checked(path, &mesh_bytes(path)?, faults)
 }
 
-/// Checks or repairs a mesh that was read from a file; what was repaired is told.
+/// Checks or repairs a mesh that was read from a file, and prints the repairs.
 pub fn checked(path: &Path, bytes: &[u8], faults: FaultArguments) -> Result<CheckedMesh, Failure> {
     let name = path.display();
     let ReadMesh { mesh, report } =
@@ -157,8 +157,7 @@ impl NamedFiles {
     }
 }
 
-/// Reads landmark files of two meshes onto them; a fault is told with the file's name. Remarks tell, too, where files name other
-/// meshes than `meshes`.
+/// Reads landmark files of two meshes onto them; an error names the file. Remarks also say where files name other meshes than `meshes`.
 pub fn landmarks<P: AsRef<Path>>(
     paths: &[P],
     meshes: [&Path; 2],

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// The exit code of a program that was ended by Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
-/// What the first Ctrl-C sets; `None` where the system lets nobody listen, and Ctrl-C ends the program.
+/// The flag that the first Ctrl-C sets; `None` where the system lets nobody listen, and Ctrl-C ends the program.
 pub fn listen() -> Option<Arc<AtomicBool>> {
     let asked = Arc::new(AtomicBool::new(false));
     let flag = asked.clone();

@@ -91,7 +91,7 @@ pub struct Asked<'a> {
     pub landmarks: Vec<&'a PathBuf>,
     /// How the files are read.
     pub options: ReadOptions,
-    /// What is chosen of the run.
+    /// The choices of the run.
     pub choices: Choices,
     /// Time from the start after which the run is to finish.
     pub time_limit: Option<Duration>,
@@ -134,7 +134,7 @@ impl Asked<'_> {
         clock
     }
 
-    /// Reads the files; a fault is told with the file's name. Landmarks that the program found are told.
+    /// Reads the files; an error names the file. Prints landmarks that the program found.
     pub fn read(&self, clock: &mut Clock) -> Result<Job, Failure> {
         let [source, target] = self.meshes;
         let bytes = [input::mesh_bytes(source)?, input::mesh_bytes(target)?];
@@ -157,7 +157,7 @@ impl Asked<'_> {
         Ok(job)
     }
 
-    /// Makes the map; what there is to know about the landmarks is told, and is in the report.
+    /// Makes the map; prints remarks on the landmarks, which are in the report as well.
     pub fn map(&self, job: &Job, clock: &mut Clock) -> Result<MapResult, Failure> {
         let options = PipelineOptions::from(self.choices);
         clock.suspend(|| {

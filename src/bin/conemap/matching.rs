@@ -12,7 +12,7 @@ use conemap::landmark_exchange::Surface;
 use conemap::landmark_matching::MatchOptions;
 use conemap::monitor::Stage;
 
-/// Finds landmarks, writes the best ones and what is told of all, and tells the verdict; an error where there are none.
+/// Finds landmarks, writes the best ones and the report on all, and prints the verdict; an error where there are none.
 pub fn run(arguments: &MatchArguments) -> Result<(), Failure> {
     let MatchArguments { source, target, landmarks, target_landmarks, out, report, .. } = arguments;
     let inputs = [source, target].into_iter().chain(landmarks).chain(target_landmarks);
@@ -63,5 +63,5 @@ pub fn tell(report: &MatchReport) {
     }
 }
 
-/// The number of alternatives that are told; the report has all of them.
+/// The number of alternatives that are printed; the report has all of them.
 const TOLD: usize = 3;

@@ -29,12 +29,12 @@ impl<'a> SavedFiles<'a> {
         MapFiles { map: &self.map, source: &self.meshes[0], target: &self.meshes[1] }
     }
 
-    /// Opens the map; a fault is told with the file's name.
+    /// Opens the map; an error names the file.
     pub fn open(&self) -> Result<OpenMap, Failure> {
         OpenMap::read(self.bytes()).map_err(|error| self.told(error.side(), &error))
     }
 
-    /// The look that the map carries; what cannot be used of it is told.
+    /// The look that the map carries; prints remarks on the parts that cannot be used.
     pub fn look(&self, open: &OpenMap) -> MapLook {
         let paths = [&*self.paths.source, &*self.paths.target];
         let sets = MeshSets::of(paths, self.meshes.each_ref().map(Vec::as_slice));

@@ -1,6 +1,6 @@
 //! What the program says on standard error, and the results that it prints on standard output.
 //!
-//! Names and labels come from files of strangers: what would steer a terminal is written as its escape.
+//! Names and labels come from files of strangers: characters that would control a terminal are written as escapes.
 
 use std::error::Error;
 use std::fmt::Display;

@@ -34,7 +34,7 @@ pub fn run(arguments: &TransferArguments) -> Result<(), Failure> {
     }
 }
 
-/// What is asked for, with the format of what is written.
+/// The content that is asked for, with the format of the output.
 enum What<'a> {
     Values(&'a Path, ValueFormat),
     Curves(&'a Path, CurveFormat),

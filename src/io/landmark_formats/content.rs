@@ -1,4 +1,4 @@
-//! What landmark files hold.
+//! The contents of landmark files.
 
 use crate::io::landmark_file::{LandmarkFile, LandmarkPoint};
 use glam::DVec3;
@@ -42,7 +42,7 @@ pub fn half_turned(p: DVec3) -> DVec3 {
     DVec3::new(-p.x, -p.y, p.z)
 }
 
-/// Where a landmark is, as its file says it.
+/// The place of a landmark as its file gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spot {
     /// A point on the surface, with the numbers of the mesh's file.
@@ -56,14 +56,14 @@ pub enum Spot {
 pub struct Mark {
     /// Its name, empty for none.
     pub label: String,
-    /// Where it is; `None` where the file says that it was not placed.
+    /// The place of the landmark; `None` where the file says that it was not placed.
     pub spot: Option<Spot>,
 }
 
 /// The landmarks of one mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MarkList {
-    /// What the file calls the list or its specimen, empty for none.
+    /// The name of the list or its specimen in the file, empty for none.
     pub name: String,
     /// The coordinate system, where the file names one.
     pub space: Option<Space>,
@@ -71,7 +71,7 @@ pub struct MarkList {
     pub marks: Vec<Mark>,
 }
 
-/// What a landmark file holds.
+/// The contents of a landmark file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// The landmarks of one mesh.
@@ -87,7 +87,7 @@ pub enum Content {
 pub struct SurfaceMark {
     /// Its name, empty for none.
     pub label: String,
-    /// Where it is in space.
+    /// The place of the landmark in space.
     pub position: DVec3,
     /// A face that holds it, 0-based.
     pub face: u32,
@@ -98,7 +98,7 @@ pub struct SurfaceMark {
 /// The landmarks of one mesh, ready to be written in any format.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceMarks {
-    /// What to call the list: the name of the mesh.
+    /// The name for the list: that of the mesh.
     pub name: String,
     /// The coordinate system of the positions.
     pub space: Space,

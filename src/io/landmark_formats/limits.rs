@@ -1,4 +1,4 @@
-//! What landmark files may ask for.
+//! The limits for the sizes of landmark files.
 
 /// The largest number of points; a file with more is refused.
 pub const MAX_POINTS: usize = 100_000;

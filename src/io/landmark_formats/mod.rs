@@ -1,5 +1,5 @@
-//! Landmark files of many programs: bytes to named points and back. One file per format; formats are told by content, and
-//! the ending of a file's name only decides among what the content allows.
+//! Landmark files of many programs: bytes to named points and back. One file per format; formats are recognised by content, and the ending
+//! of a file's name only decides among what the content allows.
 //!
 //! Nothing here knows a mesh: points are on a surface where the format says so, and in space elsewhere.
 //! [`crate::landmark_exchange`] brings them onto meshes.

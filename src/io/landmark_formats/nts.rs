@@ -11,7 +11,7 @@ use crate::io::problem::{Place, Problem};
 use crate::io::reading::number;
 use glam::DVec3;
 
-/// Where the labels of rows or columns are.
+/// The place of the labels of rows or columns.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Labels {
     None,

@@ -28,7 +28,7 @@ pub enum LandmarkReadError {
         format: LandmarkFormat,
         /// The place of the fault.
         place: Place,
-        /// What is wrong and what to do.
+        /// The problem and its remedy.
         problem: String,
     },
     /// The file holds no landmarks.

@@ -16,7 +16,7 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<(LandmarkFormat, Content), Landm
         return Err(LandmarkReadError::TooLarge { bytes: bytes.len() });
     }
     let text = reading::text(bytes);
-    // What is no text is told as such by its format, or has none.
+    // Bytes that are no text are refused by their format, or belong to none.
     let bytes = text.as_deref().map_or(bytes, str::as_bytes);
     let format = match detect(name, bytes) {
         Some(format) => format,

@@ -1,4 +1,4 @@
-//! What readers and writers share: lines of bounded length, coordinates, separated fields, labels.
+//! The tools that readers and writers share: lines of bounded length, coordinates, separated fields, labels.
 
 use super::limits::MAX_POINTS;
 use crate::io::problem::{Place, Problem};
@@ -64,7 +64,7 @@ pub fn check_count(count: usize, line: usize) -> Result<(), Problem> {
     Ok(())
 }
 
-/// What a JSON reader says, with its line.
+/// The problem that a JSON reader reports, with its line.
 pub fn json_problem(e: &serde_json::Error) -> Problem {
     let words = e.to_string();
     let problem = words.split(" at line ").next().unwrap_or_default().to_owned();

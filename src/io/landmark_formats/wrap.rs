@@ -1,6 +1,5 @@
-//! Faceform Wrap's points (`.json`): `[[triangle, u, v], ...]` or `{"name": [triangle, u, v], ...}`, where a point of the
-//! triangle ABC is A u + B v + C (1 - u - v). Wrap saves points in space in the same two forms: they are told by triangles that
-//! are no whole numbers.
+//! Faceform Wrap's points (`.json`): `[[triangle, u, v], ...]` or `{"name": [triangle, u, v], ...}`, where a point of the triangle ABC is A
+//! u + B v + C (1 - u - v). Wrap saves points in space in the same two forms: they are recognised by triangle numbers that are not whole.
 //!
 //! The triangles are those of Wrap, which cuts a polygon into a fan around its first corner. They are the mesh's own where all
 //! its faces are triangles.

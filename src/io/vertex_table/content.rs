@@ -1,4 +1,4 @@
-//! What a table of values by vertex holds, and what may be wrong with one.
+//! The contents of a table of values by vertex, and the errors about one.
 
 use super::number_type::NumberType;
 use crate::io::problem::{Place, Problem};
@@ -6,7 +6,7 @@ use crate::io::problem::{Place, Problem};
 /// Columns of numbers, one number for each vertex of a mesh file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VertexTable {
-    /// How rows tell their vertex.
+    /// The way in which rows name their vertex.
     pub rows: Rows,
     /// The columns in the order of the file.
     pub columns: Vec<Column>,
@@ -14,7 +14,7 @@ pub struct VertexTable {
     pub left_out: Vec<String>,
 }
 
-/// How the rows of a table tell their vertex.
+/// The way in which the rows of a table name their vertex.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Rows {
     /// Row i is vertex i.
@@ -40,7 +40,7 @@ pub enum Heading {
 pub struct Column {
     /// Its name.
     pub name: String,
-    /// How its numbers are written.
+    /// The type of its numbers in the file.
     pub number_type: NumberType,
     /// The value of each vertex of the file; `None` where it has none.
     pub values: Vec<Option<f64>>,
@@ -51,17 +51,17 @@ pub struct Column {
 pub struct AnnouncedColumn {
     /// Its name.
     pub name: String,
-    /// How its numbers are written.
+    /// The type of its numbers in the file.
     pub number_type: NumberType,
 }
 
-/// What is wrong with a table, and where.
+/// The error about a table, with its place.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {problem}")]
 pub struct TableError {
     /// The place of the fault.
     pub place: Place,
-    /// What is wrong and what to do.
+    /// The problem and its remedy.
     pub problem: String,
 }
 

@@ -1,6 +1,6 @@
 //! Types of numbers, by the names that PLY files give them.
 
-/// How a number is written.
+/// The type of a number in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NumberType {
     /// One byte, signed.

@@ -9,7 +9,7 @@ use ply_rs_bw::ply::{PropertyDef, PropertyType, ScalarType};
 /// The properties that are places, not values.
 const COORDINATES: [&str; 3] = ["x", "y", "z"];
 
-/// What the header announces: the properties that are no lists, but for the coordinates.
+/// The columns that the header announces: all properties except lists and coordinates.
 pub(super) fn announced(bytes: &[u8]) -> Result<Vec<AnnouncedColumn>, Problem> {
     let element = vertex_element(bytes)?;
     let column = |(name, property): (&String, &PropertyDef)| match &property.data_type {

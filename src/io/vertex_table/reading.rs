@@ -1,4 +1,4 @@
-//! Tables told by their content.
+//! Reads tables, whose format is recognised by their content.
 
 use super::content::{AnnouncedColumn, TableError, VertexTable};
 use super::{comma_separated, properties};

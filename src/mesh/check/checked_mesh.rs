@@ -112,7 +112,7 @@ impl CheckedMesh {
         }
     }
 
-    /// How many faces were turned.
+    /// The number of faces that were turned.
     pub fn turned_faces(&self) -> usize {
         self.turned.iter().filter(|turned| **turned).count()
     }

@@ -22,7 +22,7 @@ impl Degenerate {
     }
 }
 
-/// What may be added to a surface where a face without area goes.
+/// The elements that may be added to a surface where a face without area is dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Additions {
     /// Nothing may be added: a face that cannot be dropped without it leaves a hole.
@@ -216,7 +216,7 @@ fn with_raised_edges(mut draft: Draft, raised: FxHashMap<[u32; 2], [usize; 2]>) 
     draft.with_faces(whole.into_iter().enumerate().flat_map(made).collect::<Vec<_>>())
 }
 
-/// What is done about faces without area in one round.
+/// The changes that one round makes to faces without area.
 struct Cuts {
     /// The faces that are dropped.
     gone: Vec<usize>,

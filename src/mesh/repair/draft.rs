@@ -22,11 +22,11 @@ pub(super) struct DraftFace {
     pub corners: Triangle,
     /// The file's vertices at its corners, before any were joined; [`NONE`] at those that the repair added.
     pub file_corners: Triangle,
-    /// Where the face comes from.
+    /// The origin of the face.
     pub origin: FaceOrigin,
 }
 
-/// Where a face comes from.
+/// The origin of a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FaceOrigin {
     /// The face is one of the triangulated file.

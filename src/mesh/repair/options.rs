@@ -1,8 +1,8 @@
-//! What a repair may do.
+//! The options of a repair.
 
 use serde::{Deserialize, Serialize};
 
-/// What a repair may do. A name or a value that is not known is an error.
+/// The options of a repair. A name or a value that is not known is an error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields, rename_all = "camelCase")]
@@ -23,7 +23,7 @@ impl RepairOptions {
     }
 }
 
-/// What becomes of handles.
+/// The treatment of handles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]

@@ -157,7 +157,8 @@ fn steps(
     Ok(RepairedMesh { checked, report: RepairReport { fault: Some(fault), changes, cap_share } })
 }
 
-/// What is told where a fault is left: all holes were capped, so what is open was opened by dropping faces without area.
+/// The fault that the refusal names where one is left: all holes were capped, so an open edge comes from faces without area that were
+/// dropped.
 fn cause(given: &MeshFault, left: MeshFault) -> MeshFault {
     match (given, left) {
         (MeshFault::DegenerateFaces(_), MeshFault::OpenEdges(_)) => given.clone(),
@@ -229,7 +230,7 @@ fn cut_handles(
     if genus > MOST_HANDLES {
         return Err(RepairRefusal::TooManyHandles { genus, most: MOST_HANDLES });
     }
-    // What is refused is told as it would be cut.
+    // The handles are cut even where they are refused, since the refusal lists them with their loops.
     let cut = without_handles(draft, genus, monitor)?;
     match allowed {
         Handles::Cut => Ok(cut),
@@ -237,7 +238,7 @@ fn cut_handles(
     }
 }
 
-/// What the check itself changes of every mesh.
+/// The changes that the check itself makes on every mesh.
 fn told_of_all(soup: &PolygonSoup, checked: &CheckedMesh) -> Vec<Change> {
     let mut is_used = vec![false; soup.positions.len()];
     soup.polygons.iter().flatten().for_each(|v| is_used[*v as usize] = true);

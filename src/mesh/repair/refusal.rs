@@ -74,10 +74,10 @@ impl fmt::Display for Counted {
     }
 }
 
-/// Where handles are and how long their loops are, as far as a sentence goes.
+/// The places of handles and the lengths of their loops, as text for a sentence.
 struct Loops<'a>(&'a [Handle]);
 
-/// The number of handles that are told one by one.
+/// The largest number of handles that a sentence names one by one.
 const TOLD: usize = 5;
 
 impl fmt::Display for Loops<'_> {

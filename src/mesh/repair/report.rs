@@ -1,11 +1,11 @@
-//! What a repair changed, in counts, numbers of the file and sentences.
+//! The changes of a repair, in counts, numbers of the file and sentences.
 
 use crate::mesh::check::{Count, Elements, MeshFault};
 use glam::DVec3;
 use serde::Serialize;
 use std::fmt;
 
-/// What a repair changed.
+/// The changes that a repair made.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RepairReport {
     /// The first fault of the mesh as given; `None` where there was none and nothing was repaired.
@@ -105,7 +105,7 @@ pub struct Handle {
 pub struct ChangeReport {
     /// The change's stable name.
     pub kind: &'static str,
-    /// What was done, in words.
+    /// The change in words.
     pub sentence: String,
     /// The number of elements of the kind that the name says.
     pub count: usize,
@@ -140,7 +140,7 @@ impl Change {
         }
     }
 
-    /// How many elements it is about: vertices, faces, edges, parts, holes or handles.
+    /// The number of elements that were changed: vertices, faces, edges, parts, holes or handles.
     pub fn count(&self) -> usize {
         match self {
             Self::JoinedVertices(e) | Self::UnusedVertices(e) | Self::SplitVertices(e) => e.count,

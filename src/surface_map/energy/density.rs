@@ -155,7 +155,7 @@ pub(super) mod testing {
         }
     }
 
-    /// A density without a part of it; its Hessian is told by the density.
+    /// A density minus a part of it; its Hessian is that of the whole density.
     struct Difference<'a, D, L> {
         density: &'a D,
         left_out: &'a L,

@@ -70,7 +70,7 @@ mod tests {
 
     const KINDS: [MapEnergy; 4] = [MapEnergy::PLAIN, MapEnergy::SMOOTH, MapEnergy::JUDGE, MapEnergy::POSES];
 
-    /// What a piece costs by its areas alone.
+    /// The cost of a piece by its areas alone.
     struct AreaCost(f64);
 
     impl Density for AreaCost {

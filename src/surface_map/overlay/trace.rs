@@ -89,7 +89,7 @@ pub(super) struct Traced<'a> {
     pub traces: &'a Traces,
 }
 
-/// What the traces of all edges share.
+/// The data that the traces of all edges share.
 struct Tracer<'a> {
     source: Parametrised<'a>,
     target: Parametrised<'a>,

@@ -558,7 +558,7 @@ pub(super) mod tests {
         }
     }
 
-    /// Writes down what is told of the energy: `None` where a relaxation begins.
+    /// A monitor that keeps the reported energies: `None` where a relaxation begins.
     #[derive(Default)]
     struct Listener(Vec<Option<f64>>);
 

@@ -1,4 +1,4 @@
-//! What is under the pointer, and where the map takes it.
+//! The point under the pointer, and its image under the map.
 
 use super::super::mesh_side;
 use super::canvas::Viewer;
@@ -43,7 +43,7 @@ impl Viewer {
         Ok(self.sides[side].pin_at(Vec2::new(x, y), slack, self.now, self.pixel_ratio))
     }
 
-    /// Where the place of a pin is seen, x and y from -1 to 1, y up.
+    /// The place of a pin in the view, x and y from -1 to 1, y up.
     #[wasm_bindgen(js_name = pinPlace)]
     pub fn pin_place(&self, side: usize, pin: usize) -> Result<Option<Vec<f32>>, JsValue> {
         let side = &self.sides[mesh_side(side)?];

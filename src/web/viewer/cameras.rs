@@ -140,14 +140,13 @@ impl Viewer {
         Ok(())
     }
 
-    /// Where a camera stands, for [`Viewer::set_camera`]; `undefined` at the first look.
+    /// The pose of a camera, for [`Viewer::set_camera`]; `undefined` at the first look.
     pub fn camera(&self, side: usize) -> Result<Option<Vec<f32>>, JsValue> {
         let side = &self.sides[mesh_side(side)?];
         Ok((!side.is_first_look()).then(|| side.camera.to_numbers().to_vec()))
     }
 
-    /// How a view's camera is turned now: right and up on the screen and back to the viewer, in the mesh's coordinates, three numbers
-    /// each.
+    /// The axes of a view's camera now: right and up on the screen and back to the viewer, in the mesh's coordinates, three numbers each.
     pub fn axes(&self, side: usize) -> Result<Vec<f32>, JsValue> {
         let pose = self.sides[mesh_side(side)?].pose(self.now);
         Ok([pose.right(), pose.up(), pose.back()].map(|axis| axis.to_array()).concat())

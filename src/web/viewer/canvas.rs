@@ -14,7 +14,7 @@ use glam::Mat4;
 use serde::Deserialize;
 use wasm_bindgen::prelude::*;
 
-/// What the page wants to see.
+/// The choices of the page for the views.
 #[derive(Default, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Style {
@@ -38,7 +38,7 @@ pub(super) struct Style {
     pub(super) compared_holes: bool,
 }
 
-/// What the surfaces' colours tell.
+/// The quantity that the surfaces' colours show.
 #[derive(Clone, Copy, Default, Deserialize, PartialEq, tsify::Tsify)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum SurfaceStyle {
@@ -58,7 +58,7 @@ pub(super) enum SurfaceStyle {
     Look,
 }
 
-/// How a texture lies on the flat metric.
+/// The place of a texture on the flat metric.
 #[derive(Clone, Copy, Default, Deserialize)]
 pub(super) struct TexturePlace {
     /// Cells to a unit of texture coordinates.
@@ -115,9 +115,9 @@ pub struct Viewer {
     pub(super) morph: f32,
     /// Lays the target on the source, in scene coordinates.
     pub(super) source_from_target: Mat4,
-    /// How the map's points are off straight lines on that way, once that is known.
+    /// The offsets of the map's points from straight lines on that way, once they are known.
     pub(super) way: Option<PackedWay>,
-    /// Where the places of the rings are among the map's points: a triangle, and the shares of its corners.
+    /// The place of the rings among the map's points: a triangle, and the shares of its corners.
     pub(super) probed: Option<([u32; 3], [f64; 3])>,
     /// Share of the way between the two moments of a flow that is shown.
     pub(super) factor_share: f32,
@@ -163,7 +163,7 @@ impl Viewer {
         self.pixel_ratio = pixel_ratio;
     }
 
-    /// Where a view is, in physical pixels from the top left.
+    /// Sets the place of a view, in physical pixels from the top left.
     #[wasm_bindgen(js_name = setViewport)]
     pub fn set_viewport(
         &mut self,
@@ -267,7 +267,7 @@ impl Viewer {
         self.sides[mesh_side(side)?].set_suggestions(points)
     }
 
-    /// What to show: JSON `{"surface", "patchLines", "textureBoundary"?, "cones", "markers", "dark"?, "holes"?,
+    /// Sets the choices for the views: JSON `{"surface", "patchLines", "textureBoundary"?, "cones", "markers", "dark"?, "holes"?,
     /// "comparedHoles"?, "wipe"?, "texture"?}`; `texture` is `{"cells", "turn", "x", "y"}`, cells to a unit of texture coordinates, degrees
     /// and cells; with `wipe`, a share of the source's view, the source is plain from the left to there.
     ///
@@ -286,7 +286,7 @@ impl Viewer {
         Ok(self.shown(side, self.sides[side].heads(self.now, self.pixel_ratio)))
     }
 
-    /// Where the suggested points are, as [`Viewer::labels`].
+    /// The places of the suggested points, as [`Viewer::labels`].
     pub fn suggestions(&self, side: usize) -> Result<Vec<f32>, JsValue> {
         let side = mesh_side(side)?;
         Ok(self.shown(side, self.sides[side].suggested(self.now)))

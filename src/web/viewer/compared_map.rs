@@ -1,4 +1,4 @@
-//! What the second view has of another map while it shows one.
+//! The parts of another map in the second view while it shows one.
 
 use crate::gpu::Mesh;
 

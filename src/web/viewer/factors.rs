@@ -40,7 +40,7 @@ impl Viewer {
         Ok(())
     }
 
-    /// How far the colours have gone from the first places to the second, 0 to 1.
+    /// Sets the share, 0 to 1, of the way of the colours from the first places to the second.
     #[wasm_bindgen(js_name = blendFactors)]
     pub fn blend_factors(&mut self, share: f32) {
         self.factor_share = share.clamp(0.0, 1.0);

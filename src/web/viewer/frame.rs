@@ -31,7 +31,7 @@ impl Viewer {
     }
 }
 
-/// What is marked in a view.
+/// The marks in a view.
 #[derive(Clone, Copy)]
 struct Marks<'a> {
     balls: &'a [MarkerInstance],
@@ -39,7 +39,7 @@ struct Marks<'a> {
 }
 
 impl Viewer {
-    /// What is drawn of a view.
+    /// The contents of a view that are drawn.
     fn view<'a>(&'a self, view: MeshSide, marks: Marks<'a>) -> ViewDraw<'a> {
         let shown = self.side_in(view);
         let (side, style): (&Side, _) = (&self.sides[shown], &self.style);
@@ -175,7 +175,7 @@ impl Viewer {
         (DASH * self.pixel_ratio * pixel).max(1e-9).log2().round().exp2()
     }
 
-    /// Where the ring of a view is: on the surface as it is shown.
+    /// The place of the ring of a view, on the surface as it is shown.
     fn ring(&self, side: MeshSide) -> Option<Vec3> {
         let place = self.sides[side].probe?;
         if !self.is_morphed(side) {

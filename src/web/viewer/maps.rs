@@ -1,4 +1,4 @@
-//! What a map brings to the views.
+//! The parts of a map in the views.
 
 use super::super::mesh_side;
 use super::super::view_side::Side;
@@ -64,7 +64,7 @@ impl Viewer {
         Some((0..count).map(vertex).collect())
     }
 
-    /// How far a point of the map lies off its straight way; only the source goes on a way.
+    /// The offset of a point of the map from its straight way; only the source is morphed.
     fn bends_at(&self, side: MeshSide, point: usize) -> PackedBends {
         self.way.as_ref().filter(|_| side == MeshSide::Source).map(|way| way.at(point)).unwrap_or_default()
     }
@@ -167,7 +167,7 @@ impl Viewer {
         Ok(())
     }
 
-    /// Takes the seams of the texture as one side sees them, told by the map's triangles: positions there, and texture coordinates.
+    /// Takes the seams of the texture as one side sees them, given by the map's triangles: positions there, and texture coordinates.
     #[wasm_bindgen(js_name = setSeams)]
     pub fn set_seams(
         &mut self,

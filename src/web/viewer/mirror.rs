@@ -36,7 +36,7 @@ impl Viewer {
         Ok(())
     }
 
-    /// What lies across the plane from a landmark point of a side, as JSON: `{"point", "distance", "near"}`; `point` is `null` where the
+    /// The point across the plane from a landmark point of a side, as JSON: `{"point", "distance", "near"}`; `point` is `null` where the
     /// given one lies on the midline, `distance` says how far off the surface the mirror image was, in units of the root of the area, and
     /// `near` is the number of the pin that stands there already or `null`. `undefined` without a plane, and where no landmark can be.
     pub fn across(&self, side: usize, point: &str) -> Result<Option<String>, JsValue> {

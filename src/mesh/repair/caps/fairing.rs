@@ -189,7 +189,7 @@ fn steps(operator: &impl LinearOperator<f64>, diagonal: &Diagonal, right: &[DVec
     for axis in 0..3 {
         let b: Vec<f64> = right.iter().map(|p| p[axis]).collect();
         let mut x = vec![0.0; b.len()];
-        // Not converged is no fault here, see above.
+        // A solve that does not converge is no fault here, see above.
         let _ = workspace.solve(operator, diagonal, &b, &mut x, &SOLVE);
         found.iter_mut().zip(&x).for_each(|(p, x)| p[axis] = *x);
     }

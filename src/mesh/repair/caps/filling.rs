@@ -93,7 +93,7 @@ fn without_ears(rim: &Rim<'_>, taken: &mut FxHashSet<[u32; 2]>, triangles: &mut 
     (0..n as u32).filter(|&v| is_there[v as usize]).collect()
 }
 
-/// How good a triangulation is: flat triangles, the sharpest bend (1 - cosine), the area.
+/// The cost of a triangulation: its flat triangles, its sharpest bend (1 - cosine), and its area, compared in this order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Cost {
     flat: u32,

@@ -1,4 +1,4 @@
-//! Caps of a repaired mesh, told as what they are.
+//! The caps of a repaired mesh, listed as defects of their own kind.
 
 use super::chains::chains;
 use super::defect::{Defect, DefectKind, Defects};

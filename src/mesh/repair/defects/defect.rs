@@ -1,4 +1,4 @@
-//! What is wrong with a mesh, by kind.
+//! The defects of a mesh, by kind.
 
 use crate::mesh::FileFrame;
 use crate::mesh::check::Triangle;
@@ -12,7 +12,7 @@ pub const MOST_DEFECTS: usize = 1000;
 /// The largest number of points of all lines of one kind; a line that would have more ends early.
 pub const MOST_POINTS: usize = 100_000;
 
-/// What is wrong at a place.
+/// The kind of a defect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -92,7 +92,7 @@ pub struct Defect {
 /// All defects of one kind.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DefectGroup {
-    /// What is wrong.
+    /// The kind of the defects.
     pub kind: DefectKind,
     /// The number of defects of the kind.
     pub count: usize,
@@ -122,7 +122,7 @@ impl fmt::Display for DefectGroup {
     }
 }
 
-/// What is wrong with a mesh, with what is needed to show it.
+/// The defects of a mesh, with the places that are needed to show them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Defects {
     /// The way from the positions to the file's coordinates: that of the mesh which a repair makes of the file.

@@ -76,7 +76,7 @@ struct Closing {
 struct Search<'a> {
     graph: &'a Graph,
     of_edge: &'a [u128],
-    /// What is known of the vertices that were reached.
+    /// The distances of the vertices that were reached.
     distance: Vec<f64>,
     before: Vec<u32>,
     crossed: Vec<u128>,
