@@ -18,8 +18,8 @@ mod wasm;
 use std::process::ExitCode;
 
 const USAGE: &str = "cargo xtask COMMAND
-  serve   build the app, serve it and print its address
-  build   build the app into dist/, to be put on any static web server; with --quick as the tests use it
+  serve   build the page, serve it and print its address
+  build   build the page into dist/, to be put on any static web server; with --quick as the tests use it
   test    run the tests: formatting, lints, documentation, core, page, browser; with --all the long ones, too
   browsers visit the page in Chromium, Firefox and WebKit, which are installed where that is possible
   compare time whole maps, wasm in a browser against native: [--runs N] [PAIR.json ...], the demos without files
