@@ -16,12 +16,11 @@ use conemap::mesh::insertion::insert;
 use conemap::mesh::mirror::mirrored;
 use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use conemap::monitor::Silent;
+use conemap::pipeline::FINDINGS_VERTICES;
 use cpu_time::ThreadTime;
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 
-/// The number of vertices of the coarse levels on which landmarks are doubted: the same as before a map is made (`pipeline::findings`).
-const COARSE: usize = 1500;
 /// The numbers of landmarks that are tried, besides all of them.
 pub const COUNTS: [usize; 4] = [6, 8, 12, 16];
 /// The largest distance by which landmarks are moved, in units of the root of the area.
@@ -46,8 +45,9 @@ pub struct Fit {
 impl Fit {
     fn coarse(name: &str, meshes: [&SurfaceMesh; 2], landmarks: &Landmarks) -> Self {
         let sides = [&landmarks.source, &landmarks.target];
-        let levels = [0, 1]
-            .map(|s| Level::coarse(meshes[s], &sides[s].raw, COARSE, &mut Silent).expect("nobody stops"));
+        let levels = [0, 1].map(|s| {
+            Level::coarse(meshes[s], &sides[s].raw, FINDINGS_VERTICES, &mut Silent).expect("nobody stops")
+        });
         let [source, target] = [0, 1].map(|s| levels[s].numbers(sides[s]).collect());
         let meshes = levels.map(|level| level.mesh);
         let numbers = (0..landmarks.len()).collect();

@@ -11,8 +11,8 @@ use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Rising, Stage};
 use serde::{Serialize, Serializer};
 
-/// Vertices of the coarse levels, on which distances are measured. Chosen by hand.
-const COARSE_VERTICES: usize = 1500;
+/// The number of vertices of the coarse levels on which distances between landmarks are measured. Chosen by hand.
+pub const FINDINGS_VERTICES: usize = 1500;
 
 /// The kind of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -205,7 +205,7 @@ pub fn findings(
 
 /// The level of a mesh on which its distances are measured.
 fn coarse(mesh: &SurfaceMesh, landmarks: &[VertexId], monitor: &mut dyn Monitor) -> Result<Level, Cancelled> {
-    Level::coarse(mesh, landmarks, COARSE_VERTICES.max(2 * landmarks.len()), monitor)
+    Level::coarse(mesh, landmarks, FINDINGS_VERTICES.max(2 * landmarks.len()), monitor)
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ mod whole_run;
 
 pub use borders::{BorderCase, BordersReport, RimPairReport, RimReport};
 pub use error::PipelineError;
-pub use findings::{FindingKind, FindingReport, RepairKind, findings};
+pub use findings::{FINDINGS_VERTICES, FindingKind, FindingReport, RepairKind, findings};
 pub use flows::{flat_surfaces, recorded_flows};
 pub use input::{CapFaces, GroundTruth, MapInput};
 pub use options::{
