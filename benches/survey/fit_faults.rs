@@ -4,14 +4,13 @@
 use crate::clicks::Random;
 use crate::common::Pair;
 use crate::fit::{COUNTS, Counts, Fit};
+use crate::shrec07;
 use conemap::landmark_fit::{Finding, Repair};
 use conemap::landmarks::{LandmarkId, MeshSide};
 use conemap::layout::LandmarkDistances;
 use conemap::mesh::VertexId;
 use conemap::monitor::Silent;
 
-/// Left and right partners among the 21 landmarks of the animals of SHREC07.
-const SHREC07: [[usize; 2]; 8] = [[2, 3], [4, 10], [5, 11], [6, 8], [7, 9], [15, 16], [17, 18], [19, 20]];
 /// The distance between two landmarks, in units of the root of the area, below which the table calls them near.
 const NEAR: f64 = 0.3;
 /// The distances by which targets are moved away, in units of the root of the area.
@@ -21,8 +20,8 @@ const REPETITIONS: usize = 2;
 
 /// The left and right partners of a pair file: the known ones of SHREC07, or else those that the landmarks' names tell.
 pub fn partners(pair: &Pair) -> Vec<[usize; 2]> {
-    if pair.name.starts_with("shrec07") {
-        return SHREC07.to_vec();
+    if shrec07::is_of(&pair.name) {
+        return shrec07::PARTNERS.to_vec();
     }
     let labels = pair.file.labels.as_deref().unwrap_or_default();
     let partner = |(left, label): (usize, &String)| {

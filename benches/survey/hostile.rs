@@ -3,6 +3,7 @@
 //! Each case runs in a process of its own, whose largest memory is read while it runs (on Linux).
 
 use crate::arguments::Arguments;
+use crate::process_memory::peak_mib;
 use crate::watch::Watch;
 use conemap::job::{Job, JobFiles, ReadOptions};
 use conemap::landmark_exchange::GivenFile;
@@ -118,7 +119,7 @@ fn watched(mut child: Child, limit: Duration) -> (f64, String) {
     let mut peak = f64::NAN;
     let mut cut = false;
     while child.try_wait().expect("a process").is_none() {
-        peak = peak.max(largest_memory(child.id()).unwrap_or(f64::NAN));
+        peak = peak.max(peak_mib(child.id()).unwrap_or(f64::NAN));
         cut = begun.elapsed() > limit;
         if cut {
             child.kill().expect("a process that runs");
@@ -132,11 +133,4 @@ fn watched(mut child: Child, limit: Duration) -> (f64, String) {
         (_, false) => (peak, format!("{:10}  {:34} ENDED WITH {}", "", "", output.status)),
         _ => (peak, told),
     }
-}
-
-/// The largest memory that a process has held, in MiB; `None` where the system does not tell.
-fn largest_memory(process: u32) -> Option<f64> {
-    let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
 }

@@ -20,6 +20,8 @@ mod punching;
 mod quads;
 #[path = "../../tests/common/rough_meshes.rs"]
 mod rough_meshes;
+#[path = "../../tests/common/shrec07.rs"]
+mod shrec07;
 
 mod arguments;
 mod borders;
@@ -39,6 +41,7 @@ mod memory;
 mod morph;
 mod orders;
 mod pairs;
+mod process_memory;
 mod remesh;
 mod remeshed;
 mod repaired;

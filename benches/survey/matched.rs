@@ -6,6 +6,7 @@
 
 use crate::arguments::Arguments;
 use crate::common;
+use crate::shrec07;
 use conemap::geodesic::distances;
 use conemap::landmark_matching::{
     Candidate, CoarsePicture, LandmarkMatch, MatchInput, MatchOptions, Verdict, match_landmarks,
@@ -23,13 +24,6 @@ use glam::{DQuat, DVec3};
 use std::collections::VecDeque;
 use std::sync::Mutex;
 use typed_index_collections::TiVec;
-
-/// Left and right partners among the landmarks of SHREC07.
-const PARTNERS: [[usize; 2]; 8] = [[2, 3], [4, 10], [5, 11], [6, 8], [7, 9], [15, 16], [17, 18], [19, 20]];
-
-/// The landmarks of SHREC07 at the sides of the neck. No map can put them right on all animals, since they were set at 18 to 71 % of the way
-/// from eye to shoulder.
-const NECK: [usize; 2] = [2, 3];
 
 /// The distance between two landmarks, in units of the root of the area, up to which one may be taken for the other.
 const APART: f64 = 0.15;
@@ -222,7 +216,7 @@ fn one(arguments: &Arguments, known: Known) -> Reached {
         line += &alternatives(&known, &found);
     }
     let Fit { error, wrong } = better(&fits);
-    let is_neck = |[own, _]: &[usize; 2]| known.name.starts_with("shrec07") && NECK.contains(own);
+    let is_neck = |[own, _]: &[usize; 2]| shrec07::is_of(&known.name) && shrec07::NECK.contains(own);
     Reached {
         line,
         right: wrong.is_empty(),
@@ -347,8 +341,8 @@ fn measured(known: &Known, target: &SurfaceMesh, images: &[DVec3]) -> [Fit; 2] {
     let fields: Vec<_> = goals.iter().map(field).collect();
     let root = target.area().sqrt();
     let mut partner: Vec<usize> = (0..n).collect();
-    if known.name.starts_with("shrec07") {
-        PARTNERS.iter().for_each(|&[a, b]| partner.swap(a, b));
+    if shrec07::is_of(&known.name) {
+        shrec07::PARTNERS.iter().for_each(|&[a, b]| partner.swap(a, b));
     }
     let fit = |partner: &dyn Fn(usize) -> usize| {
         let mut fit = Fit { error: 0.0, wrong: Vec::new() };

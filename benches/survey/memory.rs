@@ -3,6 +3,7 @@
 use crate::arguments::Arguments;
 use crate::job_files::files;
 use crate::judged_job::mapped;
+use crate::process_memory::peak_mib;
 use conemap::job::{LEAST_MEMORY, MEMORY_PER_FACE};
 use conemap::monitor::Silent;
 use std::process::Command;
@@ -27,14 +28,14 @@ pub fn table(arguments: &Arguments) {
 pub fn case(arguments: &Arguments) {
     for name in &arguments.pairs {
         let files = files(arguments, name);
-        let before = peak_mib();
+        let before = peak_mib(std::process::id());
         let mapped = match mapped(&files, &mut Silent) {
             Ok(mapped) => mapped,
             Err(outcome) => return println!("{name:24} {outcome:?}"),
         };
         let written: usize = mapped.outputs().iter().map(|file| file.bytes.len()).sum();
         let faces = mapped.report().faces.source + mapped.report().faces.target;
-        let (Some(before), Some(peak)) = (before, peak_mib()) else {
+        let (Some(before), Some(peak)) = (before, peak_mib(std::process::id())) else {
             return println!("this system does not tell what a process holds: use one with /proc");
         };
         let taken = peak - before;
@@ -45,11 +46,4 @@ pub fn case(arguments: &Arguments) {
             written as f64 / 1024.0 / 1024.0
         );
     }
-}
-
-/// The most memory that this process has held, in MiB; `None` where the system does not tell.
-fn peak_mib() -> Option<f64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
 }

@@ -2,6 +2,7 @@
 
 use crate::arguments::Arguments;
 use crate::case::{Case, Make, map_all};
+use crate::shrec07;
 use crate::table::{header, sum_up};
 use conemap::mesh::VertexId;
 
@@ -37,9 +38,7 @@ fn each(arguments: &Arguments, change: fn(Case) -> Case) {
         cases.push(Box::new(move || change(Case::of_pair(arguments, &name))));
     }
     let outcomes = map_all(cases, arguments);
-    let of = |begin: &str, is: bool| {
-        outcomes.iter().filter(|o| o.name.starts_with(begin) == is).collect::<Vec<_>>()
-    };
-    sum_up("shrec07", &of("shrec07", true));
-    sum_up("others", &of("shrec07", false));
+    let of = |is: bool| outcomes.iter().filter(|o| shrec07::is_of(&o.name) == is).collect::<Vec<_>>();
+    sum_up("shrec07", &of(true));
+    sum_up("others", &of(false));
 }

@@ -2,6 +2,7 @@
 
 use crate::arguments::Arguments;
 use crate::case::Case;
+use crate::process_memory::held_mib;
 use conemap::monitor::Silent;
 
 /// The number of maps where the command line says nothing else (`--seeds`).
@@ -20,7 +21,7 @@ pub fn table(arguments: &Arguments) {
         if let Err(error) = case.run(&arguments.options, &mut Silent) {
             println!("{count:>6} {}: {error}", case.name);
         }
-        let Some(held) = resident_mib() else {
+        let Some(held) = held_mib(std::process::id()) else {
             println!("this system does not tell what a process holds: use one with /proc");
             return;
         };
@@ -31,18 +32,11 @@ pub fn table(arguments: &Arguments) {
             println!("{count:>6} {held:>12.1}");
         }
     }
-    if let (Some(warm), Some(held)) = (warm, resident_mib()) {
+    if let (Some(warm), Some(held)) = (warm, held_mib(std::process::id())) {
         println!(
             "after {runs} maps {:+.1} MiB against {WARM} maps ({:+.1} %)",
             held - warm,
             100.0 * (held / warm - 1.0)
         );
     }
-}
-
-/// The memory that this process holds, in MiB; `None` where the system does not tell.
-fn resident_mib() -> Option<f64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
-    Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
 }

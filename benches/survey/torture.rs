@@ -7,6 +7,7 @@
 use crate::arguments::Arguments;
 use crate::hostile_geometry::{Kind, Size, case};
 use crate::judged_job::{Files, Outcome, mapped};
+use crate::process_memory::peak_mib;
 use crate::watch::Watch;
 use cpu_time::ProcessTime;
 use serde_json::{Value, json};
@@ -92,7 +93,7 @@ pub fn cases(arguments: &Arguments) {
         told["seconds"] = json!(ProcessTime::now().as_duration().as_secs_f64());
         told["silence"] = json!(silence.as_secs_f64());
         told["stage"] = json!(stage);
-        told["mib"] = json!(peak_mib());
+        told["mib"] = json!(peak_mib(std::process::id()));
         println!("{told}");
     }
 }
@@ -103,7 +104,7 @@ fn keep_bounds(faces: usize) {
     loop {
         std::thread::sleep(Duration::from_millis(50));
         let taken = ProcessTime::now().as_duration().as_secs_f64();
-        let held = peak_mib().unwrap_or(0.0);
+        let held = peak_mib(std::process::id()).unwrap_or(0.0);
         if taken > seconds || held > mib {
             println!(
                 "{}",
@@ -134,13 +135,6 @@ fn told_of(outcome: &Outcome) -> Value {
         }
         Outcome::Wrong(why) => json!({ "outcome": "finding", "sentence": why }),
     }
-}
-
-/// The most memory that this process has held, in MiB; `None` where the system does not tell.
-fn peak_mib() -> Option<f64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
 }
 
 /// Runs a case in a process of its own and returns the JSON that it prints; a panic is a finding.

@@ -3,6 +3,7 @@
 use crate::common;
 use crate::data::{self, pair_names};
 use crate::fit::{self, Case, mirrored, only_the_mirror_image_raises_an_alarm, swaps};
+use crate::shrec07;
 use conemap::landmark_fit::{Finding, Repair};
 use conemap::landmarks::{LandmarkId, Landmarks, MeshSide};
 use conemap::layout::LandmarkDistances;
@@ -53,8 +54,6 @@ fn exchanged_targets_are_named(data: &Path) {
     }
 }
 
-/// Left and right partners among the 21 landmarks of the animals of SHREC07.
-const SHREC07: [[usize; 2]; 8] = [[2, 3], [4, 10], [5, 11], [6, 8], [7, 9], [15, 16], [17, 18], [19, 20]];
 /// Left and right ears, eyes, corners of the mouth and knees of cat and lion.
 const CAT_LION: [[usize; 2]; 6] = [[9, 13], [23, 24], [27, 29], [31, 32], [8, 15], [25, 26]];
 
@@ -63,7 +62,7 @@ fn exchanged_left_and_right_partners_are_named_first(data: &Path) {
     for name in pair_names() {
         let partners = match name.as_str() {
             "cat-lion" => &CAT_LION[..],
-            shrec if shrec.starts_with("shrec07") => &SHREC07[..],
+            shrec if shrec07::is_of(shrec) => &shrec07::PARTNERS[..],
             _ => continue,
         };
         let case = read(data, &name);
@@ -81,7 +80,7 @@ fn exchanged_left_and_right_partners_are_named_first(data: &Path) {
         }
     }
     let animals = data::SHREC07.len();
-    assert_eq!(tried, animals * (animals - 1) / 2 * SHREC07.len() + CAT_LION.len());
+    assert_eq!(tried, animals * (animals - 1) / 2 * shrec07::PARTNERS.len() + CAT_LION.len());
     assert!(20 * missed.len() <= tried, "{} of {tried}: {missed:#?}", missed.len());
 }
 

@@ -1,6 +1,6 @@
-//! The tests on real meshes, which are not part of the project and lie beside it (`../shared/data`). In a plain checkout each is
-//! shown as ignored, by its name; where the folder is there, a missing file fails the tests that read it, and is named. The long
-//! ones are ignored unless asked for (`--include-ignored`, `cargo xtask test --all`).
+//! The tests on real meshes, which are not part of the project and lie beside it (`../shared/data`). In a plain checkout each test is shown
+//! as ignored, by its name; where the folder exists, a missing file fails the tests that read it, and they name it. The long tests are
+//! ignored unless asked for (`--include-ignored`, `cargo xtask test --all`).
 #![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
 #![allow(clippy::print_stderr, reason = "says once why tests are ignored")]
 
@@ -29,11 +29,13 @@ mod punching;
 mod quads;
 #[path = "../common/remeshing.rs"]
 mod remeshing;
+#[path = "../common/shrec07.rs"]
+mod shrec07;
 #[path = "../common/theorems.rs"]
 mod theorems;
 
-/// The tests of a module, by their functions' names, and after `long:` those that take too long for every run. A function that is
-/// left out is unused, which the compiler tells.
+/// The tests of a module, by their functions' names, and after `long:` those that take too long for every run. The compiler warns of a
+/// function that is left out, since it is unused.
 macro_rules! tests {
     ($($name:ident),* $(,)? $(; long: $($long:ident),+ $(,)?)?) => {
         pub fn tests() -> Vec<crate::Test> {
@@ -81,9 +83,9 @@ pub struct Test {
 /// Whether a test is part of every run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Length {
-    /// It is.
+    /// The test is part of every run.
     Short,
-    /// Where all are asked for.
+    /// The test runs only where all tests are asked for.
     Long,
 }
 
@@ -133,7 +135,7 @@ fn main() -> ExitCode {
         .flat_map(|(module, tests)| tests.into_iter().map(move |test| trial(module, test)));
     let trials: Vec<Trial> = named.collect();
     if !common::has_data() && !arguments.list {
-        // Nothing can be asked of meshes that are not here.
+        // Flags that ask for ignored tests have no effect without the meshes.
         (arguments.ignored, arguments.include_ignored) = (false, false);
         eprintln!(
             "the {} tests on real meshes are ignored: ../shared/data is not part of a plain checkout",

@@ -1,6 +1,7 @@
-//! Mirror planes of real animals: the known partners among their landmarks lie across from each other.
+//! Tests of the mirror planes of real animals: the known partners among their landmarks lie across from each other.
 
 use crate::common;
+use crate::shrec07;
 use conemap::landmark_suggestion::{Mirror, Partner, best_mirror, partner};
 use conemap::mesh::surface_index::SurfaceIndex;
 use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
@@ -9,18 +10,19 @@ use std::path::Path;
 
 tests![known_partners_lie_across_from_each_other, poses_bent_to_one_side_have_no_plane];
 
-/// Left and right among the 21 landmarks of the SHREC07 animals, and those on the midline.
-const SIDES: [[usize; 2]; 8] = [[2, 3], [4, 10], [5, 11], [6, 8], [7, 9], [15, 16], [17, 18], [19, 20]];
+/// The landmarks of the SHREC07 animals on the midline.
 const MIDDLE: [usize; 5] = [0, 1, 12, 13, 14];
 
-/// How far landmarks that were placed by hand may be from across, in units of the root of the area; some of the animals walk.
+/// The largest distance of a landmark that was placed by hand from the mirror image of its partner, in units of the root of the area; some
+/// of the animals walk.
 const BY_HAND: f64 = 0.06;
 
 fn best(mesh: &SurfaceMesh) -> Mirror {
     best_mirror(mesh, &mut Silent).unwrap().unwrap()
 }
 
-/// How far the partner of a point is from another point, in units of the root of the area; 0 for a point and itself on the midline.
+/// The distance of a point's partner across the plane from another point, in units of the root of the area; 0 for a point on the midline
+/// and itself.
 fn off(index: &SurfaceIndex<'_>, mirror: &Mirror, [from, to]: [VertexId; 2]) -> f64 {
     let mesh = index.mesh();
     let nearest = |place, normal| Some(index.nearest_facing(place, normal, FaceId(0)).point);
@@ -47,7 +49,7 @@ fn known_partners_lie_across_from_each_other(data: &Path) {
         let mirror = best(mesh);
         assert!(mirror.fits() && mirror.misfit < 0.004, "{name}: {mirror:?}");
         let index = SurfaceIndex::new(mesh);
-        for [left, right] in SIDES.into_iter().chain(MIDDLE.map(|k| [k, k])) {
+        for [left, right] in shrec07::PARTNERS.into_iter().chain(MIDDLE.map(|k| [k, k])) {
             for [from, to] in [[left, right], [right, left]] {
                 let distance = off(&index, &mirror, [points[from], points[to]]);
                 assert!(distance < BY_HAND, "{name}: {from} to {to} is {distance} off");
