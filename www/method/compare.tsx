@@ -1,4 +1,7 @@
-/** Another map of the same meshes and landmarks: chosen, waited for, and its figures beside those of the map on the page. */
+/**
+ * The comparison with another map of the same meshes and landmarks: the choice, the progress, and its figures beside those of the map on
+ * the page.
+ */
 import type { VNode } from 'preact';
 import type { OtherMap } from '../report.ts';
 import type { Comparison, Result } from '../store/state.ts';
@@ -12,7 +15,7 @@ export interface CompareProps {
   /** The map on the page. */
   readonly result: Result;
   readonly comparison: Comparison | null;
-  /** Compares it with another one; `null` for none. */
+  /** Compares the map on the page with another one; `null` ends the comparison. */
   readonly choose: (other: OtherMap | null) => void;
 }
 
@@ -109,7 +112,7 @@ function Compared({ result, comparison, choose }: CompareProps & { readonly comp
   }
 }
 
-/** The choices, and what comes of them. */
+/** The choices, and the result of the chosen one. */
 export default function Compare(props: CompareProps): VNode {
   const { comparison } = props;
   return (
