@@ -107,7 +107,7 @@ function PicturesOf(props: PartProps & { readonly result: Result }): VNode {
   );
 }
 
-/** The base domain of the map on the page and its flat metrics, or what to do to have them. */
+/** The base domain of the map on the page and its flat metrics; where there is no map, a sentence about how to get one. */
 export function BaseView(props: PartProps): VNode {
   const result = shownResult(props.state);
   return result === null ? (
