@@ -148,7 +148,7 @@ export function clearedSentence(deleted: number, locked: number): string {
 
 export const SENTENCES = {
   noWebGl:
-    'This browser gives no WebGL 2, so the meshes cannot be drawn; files are read and maps made all the same. Turn on hardware acceleration or use a current browser.',
+    'This browser offers no WebGL 2, so the meshes cannot be drawn; files can still be read, and maps made. Turn on hardware acceleration or use a current browser.',
   noCore: 'The program could not be loaded. Reload the page; if that does not help, use a current browser.',
   contextLost: 'The browser has lost its connection to the graphics card, so the meshes are not drawn. They come back by themselves when it is there again.',
   contextGone: 'The views could not be rebuilt after the graphics card was lost. Reload the page.',
@@ -172,7 +172,7 @@ export const SENTENCES = {
   tooLarge: 'is larger than 1 GiB, more than the page can take.',
   nothingToSuggest: 'No further place to suggest: the landmarks cover this mesh.',
   bringingBack: 'Bringing back your work…',
-  keepsNothing: 'This browser lets the page keep nothing: save your landmarks as a file before you leave.',
+  keepsNothing: 'In this browser the page can keep nothing: save your landmarks as a file before you leave.',
   keepsNoMore: 'Your work is not kept in this browser any more: save your landmarks as a file before you leave.',
   noRoom: 'This browser has no room left to keep your work: save your landmarks as a file before you leave.',
   keptUnreadable: 'Work of an earlier visit could not be read and was left out.',
@@ -180,9 +180,9 @@ export const SENTENCES = {
   mirrored: 'The target is its mirror image now, with the landmarks on it.',
   notItsShape: 'The source shows another shape than its own. Move its slider back to the left to place landmarks on it.',
   allLocked: 'All landmark pairs are locked. Unlock those that may go.',
-  upToDate: 'This map is of these meshes, landmarks and options already.',
+  upToDate: 'This map was made from these meshes, landmarks and options already.',
   nothingToShare: 'There is nothing to share yet: open a mesh or a demo first.',
-  noLink: 'There is no link to this: it would be too long, or the page was not opened by https, which links to your own files need. Save the project file instead: it holds everything.',
+  noLink: 'No link can be made: it would be too long, or the page was not opened by https, which links to your own files need. Save the project file instead: it holds everything.',
   aboutProject: 'One file with both meshes, the landmarks, the options, the views and the map; drop it on the page to go on',
   newVersion: 'A new version of this page is ready.',
   exchangedMeshes: 'its source is the target on the page and the other way round: swap source and target first.',
@@ -221,7 +221,7 @@ export function planeSentence(name: string, { misfit, fits }: { readonly misfit:
     return `By this plane the mirror image of the ${name} is ${off} off on average.`;
   }
   return fits
-    ? `The ${name} mirrors itself: its mirror image is ${off} off on average.`
+    ? `The ${name} is symmetric: its mirror image is ${off} off on average.`
     : `The ${name} has no plane that mirrors it: by the best one its mirror image is ${off} off on average. Choose a plane, or place both sides yourself.`;
 }
 
@@ -335,7 +335,7 @@ export function fetchSentence(
     case 'unreachable':
       return `${where} does not answer, or does not let other pages read ${name}. Download the file there and drop it here.`;
     case 'moved':
-      return `${where} sends ${name} on to another address, which nobody agreed to. Ask for a link with that address, or download the file and drop it here.`;
+      return `${where} redirects ${name} to another address, to which you have not agreed. Ask for a link with that address, or download the file and drop it here.`;
     case 'status':
       return fault.status === 404
         ? `${where} has no ${name} at this address. Ask for the link again.`

@@ -56,8 +56,8 @@ test('a click on each mesh makes two whole pairs, which go together', { tag: '@l
   const planes = page.getByRole('region', { name: 'Left and right' });
   await planes.getByRole('checkbox', { name: 'Left and right together' }).check();
   await expect(planes.getByRole('status')).toHaveText([
-    /^The source mirrors itself: its mirror image is 0\.0\d % of its size off on average\.$/,
-    /^The target mirrors itself: its mirror image is 0\.0\d % of its size off on average\.$/,
+    /^The source is symmetric: its mirror image is 0\.0\d % of its size off on average\.$/,
+    /^The target is symmetric: its mirror image is 0\.0\d % of its size off on average\.$/,
   ]);
 
   // There are two half pairs, and then two complete ones.

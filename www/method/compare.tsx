@@ -86,7 +86,7 @@ function Compared({ result, comparison, choose }: CompareProps & { readonly comp
       return (
         <>
           <p role="status">Making the other map…</p>
-          <progress value={progress.share} aria-label="Share that is done" />
+          <progress value={progress.share} aria-label="Progress of the other map" />
           <div class="watched-row">
             <button
               type="button"
@@ -106,7 +106,7 @@ function Compared({ result, comparison, choose }: CompareProps & { readonly comp
       return (
         <>
           <Table result={result} comparison={comparison} />
-          <p class="quiet small">Both views show the source: the first with what this map carries from the target, the second with what the other one does.</p>
+          <p class="quiet small">Both views show the source: the first with what this map carries from the target, the second with what the other map carries.</p>
         </>
       );
   }

@@ -32,6 +32,6 @@ export function figuresOf(report: Report): readonly Figure[] {
     },
     { name: 'Mapped', note: 'Share of the source’s vertices that have an image', value: percent(1 - report.unmapped_share) },
     { name: 'Newton steps', note: 'Of the flows of source and target to their flat metrics', value: stepsOf(report.cone_metric) },
-    { name: 'Converged', note: 'Whether both flows came to the cones that were asked for', value: haveConverged(report) ? 'yes' : 'no' },
+    { name: 'Converged', note: 'Whether both flows reached the cones that were asked for', value: haveConverged(report) ? 'yes' : 'no' },
   ];
 }

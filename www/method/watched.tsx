@@ -52,7 +52,7 @@ export function Computed<T>({ hands, sentence, onClose, children }: ComputedProp
       return (
         <div class="watched">
           <p role="status">{sentence}</p>
-          <progress value={state.share} aria-label="Share that is done" />
+          <progress value={state.share} aria-label="Progress" />
           <div class="watched-row">
             <button type="button" onClick={onClose}>
               Cancel

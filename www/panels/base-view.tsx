@@ -27,7 +27,7 @@ const loadPlane = lateModule(() => import('../method/plane.tsx'));
 function BaseOf({ state, actions, shell, result, names, parts }: OfResult): VNode {
   const { base } = result.output;
   if (base === null) {
-    return <p class="quiet">This map does not tell how its base domain lies on the meshes.</p>;
+    return <p class="quiet">It is not known how the base domain of this map lies on the meshes.</p>;
   }
   const given: BaseDomainProps = {
     ...{ base, names, parts },

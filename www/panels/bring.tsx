@@ -255,7 +255,7 @@ function Outcome({ desk, state: { work, error, made } }: { readonly desk: Desk; 
         <div class="watched">
           <p role="status">{work.kind === 'looking' ? 'Looking at the files…' : 'Bringing it across…'}</p>
           <div class="watched-row">
-            <progress value={work.share} aria-label="Share that is done" />
+            <progress value={work.share} aria-label="Progress" />
             <button
               type="button"
               onClick={() => {
