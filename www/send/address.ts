@@ -7,7 +7,7 @@ const LONGEST_NAME = 80;
 /** Why an address is not accepted. */
 export type AddressFault = 'no-address' | 'too-long' | 'not-https' | 'has-password';
 
-/** A file at an https address. */
+/** A file at an address that is accepted. */
 export interface Address {
   /** The full address. */
   readonly url: string;

@@ -27,7 +27,7 @@ export class Cameras {
     this.#act = act;
   }
 
-  /** Stops a glide, since a gesture begins that may turn the view. */
+  /** Called when a gesture begins that may turn a view; makes sure that the camera turns about a point that is seen. */
   grab(side: Side): void {
     this.#each(side, 'at once', (viewer, each) => {
       viewer.grab(each);
