@@ -1,15 +1,15 @@
 /**
- * Draws the pictures of docs/figures.md that stand beside the figures of the thesis, with the page itself, as docs/figures/NAME.webp.
- * To be run by `npm run figures` after `cargo xtask build`, when what they show has changed; `npm run figures -- NAME` draws those that are
- * named.
+ * Draws the pictures of docs/figures.md that stand beside the figures of the thesis, with the page itself, as docs/figures/NAME.webp. Run
+ * it by `npm run figures` after `cargo xtask build`, when what the pictures show has changed; `npm run figures -- NAME` draws only the
+ * named ones.
  */
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { exportedPicture, openMapped, PATIENCE, ROOT, withPage } from './page-in-browser.mjs';
 
 const FOLDER = `${ROOT}docs/figures`;
-/** Of the longer side, in pixels. */
+/** The longer side of a picture, in pixels. */
 const LONGEST = 960;
-/** In bytes. */
+/** The most bytes of a picture's file. */
 const LARGEST = 40_000;
 
 /** Chooses what the surfaces show. */
@@ -20,19 +20,19 @@ async function surface(page, name) {
   await page.waitForTimeout(800);
 }
 
-/** Sets a switch of what lies on the surfaces. */
+/** Switches on one of the lines that are drawn on the surfaces. */
 async function onIt(page, name) {
   await page.getByRole('checkbox', { name }).check();
   await page.waitForTimeout(500);
 }
 
-/** A picture of the views in a style. */
+/** A function that takes a picture of the views in a style. */
 const inStyle = (name) => async (page) => {
   await surface(page, name);
   return exportedPicture(page);
 };
 
-/** Likewise of a heat map that waits for both flows. */
+/** The same for a heat map that must wait for both flows. */
 const ofFlows = (name) => async (page) => {
   await surface(page, name);
   await page.locator('.legend .scale').waitFor({ timeout: PATIENCE });
@@ -40,7 +40,7 @@ const ofFlows = (name) => async (page) => {
   return exportedPicture(page);
 };
 
-/** A tile with a face in it, to be laid on the flat metric. */
+/** A picture of a tile with a face in it, to be laid on the flat metric. */
 async function tile(page) {
   const url = await page.evaluate(() => {
     const canvas = document.createElement('canvas');
@@ -101,7 +101,7 @@ async function plane(page) {
   return picture;
 }
 
-/** The map on the page beside the thesis' map with equal cones. */
+/** Compares the map on the page with the thesis' map with equal cones. */
 async function compared(page) {
   await surface(page, 'Checkerboard');
   await page.getByRole('radio', { name: 'Equal cones', exact: true }).check();
@@ -112,7 +112,7 @@ async function compared(page) {
   return picture;
 }
 
-/** By demo, the pictures that are taken of its map, in this order. */
+/** The pictures that are taken of each demo's map, in this order. */
 const FIGURES = {
   'sphere-tetrahedron': [['sphere-tetrahedron', inStyle('Pattern')]],
   'ball-cone': [['texture-boundary', exportedPicture]],
@@ -133,7 +133,7 @@ const FIGURES = {
   ],
 };
 
-/** Runs in the page: a smaller picture of a PNG. */
+/** Makes a smaller picture of a PNG; it runs in the page. */
 async function packed(base64, longest, largest) {
   const bitmap = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
   const scale = Math.min(1, longest / Math.max(bitmap.width, bitmap.height));

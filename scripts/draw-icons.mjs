@@ -1,13 +1,13 @@
 /**
- * Draws the page's icon, a landmarked triangle, as SVG and as the PNGs that an installed page needs. To be run by
- * `npm run icons` when the drawing has changed.
+ * Draws the page's icon, a landmarked triangle, as SVG and as the PNGs that an installed page needs. Run it by `npm run icons` when the
+ * drawing has changed.
  */
 import { writeFileSync } from 'node:fs';
 import { crc32, deflateSync } from 'node:zlib';
 
 const FOLDER = new URL('../www/public/', import.meta.url);
 
-/** The side of the square that the drawing lies in. */
+/** The side of the square in which the drawing lies. */
 const SIDE = 32;
 const TRIANGLE = { points: [[16, 3], [29, 26], [3, 26]], colour: '#2f6f8f' };
 const DOTS = [
@@ -15,7 +15,7 @@ const DOTS = [
   { centre: [4, 26], radius: 3, colour: '#3556c0' },
   { centre: [28, 26], radius: 3, colour: '#c8402f' },
 ];
-/** Behind maskable icons: systems cut these to shapes of their own, which leave the middle 80 % for certain. */
+/** The ground of maskable icons: systems cut these to shapes of their own, of which only the middle 80 % is certain to stay. */
 const GROUND = '#f4f2ee';
 
 const ICONS = [
@@ -24,7 +24,7 @@ const ICONS = [
   { file: 'icon-maskable-512.png', size: 512, share: 0.6, ground: GROUND },
 ];
 
-/** Samples a side of each pixel. */
+/** The number of samples along each side of a pixel. */
 const SAMPLES = 4;
 
 function svg() {
@@ -33,7 +33,7 @@ function svg() {
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${SIDE} ${SIDE}">${triangle}${dots.join('')}</svg>\n`;
 }
 
-/** Whether a point lies in the triangle, whose corners go clockwise on the screen. */
+/** Whether a point lies in the triangle, whose corners are clockwise on the screen. */
 function isInTriangle(x, y) {
   return TRIANGLE.points.every(([ax, ay], corner) => {
     const [bx, by] = TRIANGLE.points[(corner + 1) % 3];
@@ -41,7 +41,7 @@ function isInTriangle(x, y) {
   });
 }
 
-/** The colour at a point of the drawing; `null` beside it. */
+/** The colour at a point of the drawing; `null` outside of it. */
 function colourAt(x, y) {
   const dot = DOTS.findLast(({ centre, radius }) => Math.hypot(x - centre[0], y - centre[1]) <= radius);
   return dot?.colour ?? (isInTriangle(x, y) ? TRIANGLE.colour : null);
@@ -51,7 +51,7 @@ function channels(colour) {
   return [1, 3, 5].map((start) => Number.parseInt(colour.slice(start, start + 2), 16));
 }
 
-/** Red, green, blue and opacity of a pixel, from 0 to 255: the mean of its samples. */
+/** The red, green, blue and opacity of a pixel, from 0 to 255: the mean of its samples. */
 function pixel(column, row, { size, share, ground }) {
   const sums = [0, 0, 0, 0];
   for (let sample = 0; sample < SAMPLES ** 2; sample++) {
@@ -82,7 +82,7 @@ function png(icon) {
   const head = Buffer.alloc(13);
   head.writeUInt32BE(size, 0);
   head.writeUInt32BE(size, 4);
-  // Eight bits a channel, with opacity.
+  // The format: eight bits a channel, with opacity.
   head.set([8, 6], 8);
   const signature = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
   const data = deflateSync(Buffer.from(rows.flat()), { level: 9 });

@@ -1,18 +1,18 @@
 /**
- * Draws the pictures of the demos in the gallery, with the page itself: it maps each demo in a browser and saves what both
- * views show, without their ground, as www/public/demos/NAME.webp. To be run by `npm run thumbnails` after `npm run build`,
- * when the demos or the way in which they are drawn have changed; `npm run thumbnails -- NAME` draws those that are named.
+ * Draws the pictures of the demos in the gallery, with the page itself: it maps each demo in a browser and saves what both views show,
+ * without their ground, as www/public/demos/NAME.webp. Run it by `npm run thumbnails` after `npm run build`, when the demos or the way in
+ * which they are drawn have changed; `npm run thumbnails -- NAME` draws only the named ones.
  */
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { exportedPicture, openMapped, PATIENCE, ROOT, withPage } from './page-in-browser.mjs';
 
 const FOLDER = `${ROOT}www/public/demos`;
-/** Of a picture, in pixels: twice what the page shows. */
+/** The size of a picture in pixels, twice that on the page. */
 const SIZE = { width: 480, height: 200 };
-/** In bytes. */
+/** The most bytes of a picture's file. */
 const LARGEST = 12_000;
 
-/** The views as the page exports them, in base64. */
+/** The page's picture of the views, in base64. */
 async function exported(page, colorScheme) {
   await page.emulateMedia({ colorScheme });
   // The views follow the theme with their next frame.
@@ -20,15 +20,15 @@ async function exported(page, colorScheme) {
   return (await exportedPicture(page)).toString('base64');
 }
 
-/** Maps a demo; what the page exports of it in light and in dark. */
+/** Maps a demo; returns the page's pictures of it in light and in dark. */
 async function mapped(page, address, demo) {
   await openMapped(page, address, demo);
   return [await exported(page, 'light'), await exported(page, 'dark')];
 }
 
 /**
- * Runs in the page. One picture lies on a light ground and one on a dark one; their difference tells how much of the ground
- * is seen, and what is left is the body. Each half is cut to its body, and both are put side by side.
+ * Composes the picture of a demo; it runs in the page. One picture has a light ground and the other a dark one: their difference shows how
+ * much of the ground is visible at each pixel, and the rest is the body. Each half is cut to its body, and both are put side by side.
  */
 async function composed([light, dark], { width, height }, largest) {
   const pixels = async (base64) => {
@@ -52,7 +52,7 @@ async function composed([light, dark], { width, height }, largest) {
     image.data[k + 3] = opacity < 0.02 ? 0 : 255 * opacity;
   }
   body.getContext('2d').putImageData(image, 0, 0);
-  /** The least box around the body in columns from `left` to before `right`. */
+  /** The smallest box around the body in the columns from `left` up to, but without, `right`. */
   const box = (left, right) => {
     const found = { left: right, right: left, top: a.height, bottom: 0 };
     for (let y = 0; y < a.height; y++) {

@@ -6,10 +6,10 @@ import { preview } from 'vite';
 
 export const ROOT = fileURLToPath(new URL('../', import.meta.url));
 const SYSTEM_CHROMIUM = process.env['CHROMIUM'] ?? '/usr/bin/chromium';
-/** How long a map may take, in ms. */
+/** The longest time that a map may take, in ms. */
 export const PATIENCE = 300_000;
 
-/** Serves the built page, and hands an empty tab and the page's address to whoever works with it. */
+/** Serves the built page, and calls `work` with an empty tab and the page's address. */
 export async function withPage(work, viewport = { width: 1280, height: 800 }) {
   const server = await preview({ root: ROOT, preview: { host: '127.0.0.1', port: 4179 }, logLevel: 'warn' });
   const browser = await chromium.launch({
@@ -25,7 +25,7 @@ export async function withPage(work, viewport = { width: 1280, height: 800 }) {
   }
 }
 
-/** Opens a demo, maps it, and leaves the step Method open, without landmarks. */
+/** Opens a demo, maps it, and leaves the step Method open, with the landmarks hidden. */
 export async function openMapped(page, address, demo) {
   await page.goto('about:blank');
   await page.goto(`${address}#demo=${encodeURIComponent(demo)}`);
@@ -36,7 +36,7 @@ export async function openMapped(page, address, demo) {
   await page.getByRole('checkbox', { name: 'Landmarks' }).uncheck();
 }
 
-/** What the page exports of both views, as PNG. */
+/** The page's picture of both views, as PNG. */
 export async function exportedPicture(page) {
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Export', exact: true }).click();

@@ -1,7 +1,7 @@
 /** Whether the page is light or dark now. */
 import { useEffect, useState } from 'preact/hooks';
 
-/** Follows the system where the page's theme does: `light`, `dark` or `system`. */
+/** Whether the page is dark, by its theme `light`, `dark` or `system`; with `system` it follows the operating system. */
 export function useDarkness(theme: string): boolean {
   const query = window.matchMedia('(prefers-color-scheme: dark)');
   const [isDark, setDark] = useState(query.matches);

@@ -41,7 +41,10 @@ export function isTyped(target: EventTarget | null): boolean {
   );
 }
 
-/** Copies a text to the clipboard; whether that was done. A browser may forbid it, and gives a page that came by plain http no clipboard. */
+/**
+ * Copies a text to the clipboard; returns whether that succeeded. A browser may forbid it, and gives a page that was loaded by http no
+ * clipboard.
+ */
 export async function copied(text: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);

@@ -1,4 +1,4 @@
-/** Meshes that were read as files of the page, and whether landmarks fit them. */
+/** Turns meshes that were read into files of the page, and checks whether landmarks fit them. */
 import { failureOf } from './compute/messages.ts';
 import type { Failure } from './compute/messages.ts';
 import type { Pair, SurfacePoint } from './landmarks.ts';
@@ -46,20 +46,20 @@ export function examinedOf(packed: Uint8Array): Examined {
   return { found, groups: JSON.parse(found.list()) as DefectGroup[], faceCount: found.faceCount };
 }
 
-/** The points that pairs have on the target, with the places of the pairs. */
+/** The points that pairs have on the target, each with the index of its pair. */
 function markedOnTarget(pairs: readonly Pair[]): (readonly [number, SurfacePoint])[] {
   return pairs.flatMap(({ points: [, point] }, index) => (point === null ? [] : [[index, point] as const]));
 }
 
-/** What the reader is asked for the mirror image of a target with the points of these pairs on it. */
+/** The question to the reading worker for the mirror image of a target, with the points of these pairs on it. */
 export function mirrorQuestion(target: MeshFile, pairs: readonly Pair[]): Extract<Question, { kind: 'mirror' }> {
-  // The core mirrors the second points of a file; the first ones may be missing, and are not looked at.
+  // The core mirrors the second points of the pairs. Missing first points do not matter, since they are not read.
   const landmarks = new TextEncoder().encode(JSON.stringify({ pairs: markedOnTarget(pairs) }));
   const name = `${target.name.replace(/( \(mirrored\))?\.[^.]*$/, '')} (mirrored).obj`;
   return { kind: 'mirror', mesh: target.mesh.packed(), landmarks, name };
 }
 
-/** The event that puts a target's mirror image in its place, with the points of the pairs that were asked about. */
+/** The event that replaces a target by its mirror image, with the mirrored points of `pairs`, for which the image was asked. */
 export function mirroredEvent({ mesh, landmarks }: MirroredMesh, pairs: readonly Pair[]): Event {
   const images = landmarkFile({ name: 'landmarks', bytes: landmarks }).pairs;
   const marked = markedOnTarget(pairs);
@@ -67,7 +67,7 @@ export function mirroredEvent({ mesh, landmarks }: MirroredMesh, pairs: readonly
   return { kind: 'mirrored', file: meshFile(mesh), points };
 }
 
-/** Why the landmarks of a state are no different points of its meshes; `null` where they are. */
+/** Why the landmarks of a state are not distinct points of its meshes; `null` where they are. */
 export function misfit(state: State): Failure | null {
   if (wholePairs(state).length === 0) {
     return null;
@@ -86,14 +86,14 @@ export function misfit(state: State): Failure | null {
   }
 }
 
-/** Whether all points of a work, those of half pairs too, are different points of its meshes. */
+/** Whether all points of a work, also those of half pairs, are distinct points of its meshes. */
 export function areMarksGood({ meshes, pairs }: Pick<State, 'meshes' | 'pairs'>): boolean {
   try {
     for (const side of SIDES) {
       const file = meshes[side];
       const points = pairs.flatMap((pair) => pair.points[side] ?? []);
       if (file !== null && points.length > 0) {
-        // Only one side of the file is looked at.
+        // The core reads only this side of the pairs.
         const landmarks = { pairs: points.map((point) => [point, point]) };
         checkLandmarks(file.mesh, side, new TextEncoder().encode(JSON.stringify(landmarks)));
       }

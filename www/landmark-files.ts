@@ -1,4 +1,4 @@
-/** Landmark files of many programs: what they hold, their landmarks on the meshes, and landmarks as such files. */
+/** Reads and writes the landmark files of many programs. */
 import { failureOf } from './compute/messages.ts';
 import type { LandmarkFile, Side, SurfacePoint } from './landmarks.ts';
 import { fileSentence, failureSentence } from './messages.ts';
@@ -18,28 +18,28 @@ import {
 /** A landmark of one mesh. */
 export interface SideMark {
   readonly label: string;
-  /** `null` where the file says that it was not placed. */
+  /** The place of the landmark; `null` where the file says that it was not placed. */
   readonly point: SurfacePoint | null;
-  /** How far off the surface the file has it, in the units of the mesh. */
+  /** The distance of the file's point from the surface, in the units of the mesh. */
   readonly distance: number;
 }
 
-/** The landmarks of one mesh, and sentences about them. */
+/** The landmarks of one mesh, and remarks about them. */
 export interface SideRead {
   readonly marks: readonly SideMark[];
   readonly remarks: readonly string[];
 }
 
-/** Pairs in the meshes' own numbers, and sentences about their file. */
+/** Pairs by the meshes' own numbers of vertices and faces, and remarks about their file. */
 export interface OwnFileRead {
   readonly file: LandmarkFile;
   readonly remarks: readonly string[];
 }
 
-/** The landmarks of both meshes, and sentences about them. */
+/** The landmarks of both meshes, and remarks about them. */
 export interface PairsRead {
   readonly file: LandmarkFile;
-  /** How far off their surfaces the files have both points, in the units of the meshes. */
+  /** The distance of both points of each pair from their surfaces, in the units of the meshes. */
   readonly distances: readonly (readonly [number, number])[];
   readonly remarks: readonly string[];
 }
@@ -49,13 +49,13 @@ export function formatList(): readonly LandmarkFormatInfo[] {
   return JSON.parse(landmarkFormats()) as LandmarkFormatInfo[];
 }
 
-/** What the core says, as a refusal of a file. */
+/** An error of the core as the refusal of a file. */
 function refusal(file: NamedBytes | undefined, thrown: unknown): FileRefused {
   const failure = failureOf(thrown);
   return new FileRefused(file === undefined ? failureSentence(failure) : fileSentence(file.name, failure));
 }
 
-/** Which of several files the core blames; `undefined` for none or all. */
+/** The one of several files that the core's error names; `undefined` for none or all. */
 function blamed(files: readonly NamedBytes[], thrown: unknown): NamedBytes | undefined {
   try {
     const value: unknown = typeof thrown === 'string' ? JSON.parse(thrown) : null;
@@ -66,7 +66,7 @@ function blamed(files: readonly NamedBytes[], thrown: unknown): NamedBytes | und
   }
 }
 
-/** What a file holds; `null` where it is no landmark file. Throws {@link FileRefused} for one that cannot be read. */
+/** What a file holds; `null` where it is not a landmark file. Throws {@link FileRefused} for one that cannot be read. */
 export function contentOf(file: NamedBytes): LandmarkContent | null {
   try {
     return landmarkContent(file.name, file.bytes) ?? null;
@@ -140,7 +140,7 @@ export function filesOf(
   }
 }
 
-/** The side of a landmark file for one mesh that is called like it; `null` where it is like none or both. */
+/** The mesh whose name is that of the landmark file; `null` where neither or both have it. */
 export function sideCalledLike(file: NamedBytes, meshes: readonly (string | null)[]): Side | null {
   const stem = stemOf(file.name).toLowerCase();
   const [isSource, isTarget] = meshes.map((name) => name !== null && stemOf(name).toLowerCase() === stem);

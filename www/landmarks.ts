@@ -1,4 +1,4 @@
-/** Points, pairs and suggestions of landmarks: types that the store, the sentences and the views share. */
+/** Types of points, pairs and suggestions of landmarks, which the store, the sentences and the views share. */
 
 import type { Reason } from './wasm/core.js';
 
@@ -6,7 +6,7 @@ import type { Reason } from './wasm/core.js';
 export type Side = 0 | 1;
 export const SIDES: readonly [0, 1] = [0, 1];
 
-/** The side across. */
+/** The other side. */
 export function otherSide(side: Side): Side {
   return side === 0 ? 1 : 0;
 }
@@ -16,20 +16,20 @@ export type SurfacePoint =
   | number
   | { readonly face: number; readonly barycentric: readonly [number, number, number] };
 
-/** Two points that correspond, or one that waits for its partner. */
+/** Two points that correspond, or a half pair: one point that waits for its partner. */
 export interface Pair {
-  /** For events, keys of lists and what is selected; never given to another pair while the page is open. */
+  /** The id for events, keys of lists and the selection; it is never given to another pair while the page is open. */
   readonly id: number;
-  /** What the page calls it, from 1, and what its colour follows; the others keep theirs when a pair goes. */
+  /** The number that the page shows, from 1, and by which it colours the pair; the others keep theirs when a pair is deleted. */
   readonly number: number;
-  /** On the source and on the target; `null` where the point is missing. */
+  /** The points on the source and on the target; `null` where a point is missing. */
   readonly points: readonly [SurfacePoint | null, SurfacePoint | null];
   readonly label: string;
   /** A locked pair is neither moved nor deleted. */
   readonly locked: boolean;
   /**
-   * Of a soft pair: how far the run may move its point on the target, in units of the root of that mesh's area. A pair without one is held
-   * where it is.
+   * The radius of a soft pair: how far the run may move its point on the target, in units of the root of that mesh's area. A pair without a
+   * radius is held where it is.
    */
   readonly radius?: number;
 }
@@ -55,7 +55,7 @@ export function isSamePoint(a: SurfacePoint | null, b: SurfacePoint | null): boo
   return a.face === b.face && a.barycentric.every((weight, corner) => weight === b.barycentric[corner]);
 }
 
-/** Steps of a barycentric coordinate: finer than a screen shows, and few digits in a file or link. */
+/** The number of steps in a barycentric coordinate from 0 to 1: finer than a screen shows, with few digits in a file or link. */
 const STEPS = 10_000;
 
 /** A point as it is kept: a click is rounded once, when it is made, so that file, link and map have the same place. */
@@ -72,11 +72,11 @@ export function rounded(point: SurfacePoint): SurfacePoint {
 /** A place of one mesh that is worth a landmark. */
 export interface Suggestion {
   readonly point: number;
-  /** The end of a limb, or far from all landmarks. */
+  /** Why the place is suggested: it is the end of a limb, or far from all landmarks. */
   readonly reason: Reason;
   /** Its name on the page. */
   readonly letter: string;
-  /** The letter of the suggestion that looks alike, as left and right do. */
+  /** The letter of the suggestion that looks alike, as a left and a right one do; `null` for none. */
   readonly partner: string | null;
 }
 
@@ -85,7 +85,7 @@ export interface LandmarkFile {
   readonly source?: string;
   readonly target?: string;
   readonly pairs: readonly (readonly [SurfacePoint, SurfacePoint])[];
-  /** By pair, in units of the root of the target's area; 0 for one that is held. */
+  /** The radius of each pair, in units of the root of the target's area; 0 for a pair that is held. */
   readonly radii?: readonly number[];
   readonly labels?: readonly string[];
   readonly ground_truth?: string;

@@ -1,8 +1,8 @@
-/** Modules of the page that are fetched when they are first wanted, and asked for again where they did not come. */
+/** Modules of the page that are fetched when they are first needed, and again after a failure. */
 
 /**
- * Where the module lies that did not come, as Chromium and Firefox say in their errors; null where that is not told, or does not lie
- * in the folder of the page's own modules, of which `own` is one.
+ * The address of the module that did not load, as Chromium and Firefox write it into their errors; null where the error has none, or where
+ * the address is not in the folder of the page's own modules, of which `own` is one.
  */
 export function missingModule(thrown: unknown, own: string): URL | null {
   const told = thrown instanceof Error ? /https?:\S+\.js\b/.exec(thrown.message)?.[0] : undefined;
@@ -14,8 +14,8 @@ export function missingModule(thrown: unknown, own: string): URL | null {
 }
 
 /**
- * A loader that can be called until it succeeds. A browser remembers that a module did not come and refuses its address until the
- * page is reloaded, so each further try asks under another one.
+ * A loader that can be called until it succeeds. A browser remembers that a module did not load and refuses its address until the page is
+ * reloaded, so each further try uses another address.
  */
 export function lateModule<M>(
   load: () => Promise<M>,

@@ -43,11 +43,11 @@ import { Store } from './store/store.ts';
 import { Views } from './viewer/viewer.ts';
 import init, { demoList } from './wasm/page.js';
 
-/** How much larger a picture of the views is than the screen shows them. */
+/** How many times larger the picture file of the views is than the views on the screen. */
 const PICTURE_SCALE = 2;
 
 const store = new Store();
-// Its worker is fetched and started while the page's module is.
+// The reader's worker is fetched and started while the page's module is.
 const reader = new Reader();
 const runner = new Runner(store);
 const links = new Links(store, reader);
@@ -63,7 +63,7 @@ const wantWay = bendMorphs(
   },
 );
 const across: Mirror = (side, point) => views.across(side, point);
-/** Reloads the page into its newer build, when there is one. */
+/** Reloads the page into its newer build, where there is one. */
 let reload = (): void => undefined;
 const keeper = new Keeper(store, browserWith(reader));
 const first = new First(store, links, reader);
@@ -81,7 +81,7 @@ const actions: Actions = {
   acceptLink: links.accept,
   cancelLink: () => {
     links.cancel();
-    // Whoever leaves a link before anything else was there sees what a stranger sees.
+    // A visitor who gives up a link before anything else was on the page sees the first demo.
     if (first.isMissing()) {
       void first.open(store.state.demos);
     }
@@ -227,12 +227,12 @@ const actions: Actions = {
   },
 };
 
-// The page comes first: the views look for their places in it.
+// The page is mounted first, because the views look for their elements in it.
 const page = mountPage(store.state, actions);
 
 const views = new Views(store.state, {
   dispatch: store.dispatch,
-  // The views may say this while they show a change; it is the next change then, not one within.
+  // The views may report this while they show a change, so it is dispatched as a change of its own.
   failed: (sentence) => {
     queueMicrotask(() => {
       fail(sentence);
@@ -255,7 +255,7 @@ listenForHalves(store, views);
 findUnasked(store, () => {
   finder.start();
 });
-// The views know a plane before anybody asks for what lies across.
+// The views must hear of a plane before anybody asks them for the point across it.
 const planes = new Planes(store, reader, across);
 store.subscribe(freeForgotten);
 store.subscribe(freeExamined);
@@ -266,7 +266,7 @@ function fail(sentence: string): void {
   store.dispatch({ kind: 'error', sentence });
 }
 
-/** Opens the guide where the address asks for it, and takes the wish out of the address again; whether it did. */
+/** Opens the guide where the address asks for it, and removes that from the address again; returns whether it did. */
 function followGuide(): boolean {
   const section = guideSection(location.hash);
   if (section === null) {
@@ -303,7 +303,7 @@ async function start(): Promise<void> {
   if (!(await keeper.resume(found))) {
     await first.show(demos);
   }
-  // Once the page can be used it has the core fetched. The core lists its quickest demo last.
+  // Once the page can be used it fetches the core. The core lists its quickest demo last.
   const quickest = demos.at(-1);
   if (quickest !== undefined) {
     runner.warmUp(quickest.id);
@@ -322,7 +322,7 @@ window.addEventListener('hashchange', () => {
 listenForUndo(store);
 listenForProposal(store);
 listenForLeaving(store);
-// The last sign of life that a browser promises.
+// The last event that a browser promises before it closes a page.
 document.addEventListener('visibilitychange', () => {
   if (document.visibilityState === 'hidden') {
     void keeper.flush();

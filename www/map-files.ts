@@ -1,4 +1,4 @@
-/** Map files before they are opened: which they are, whose they are, and whether the meshes on the page are theirs. */
+/** Map files before they are opened: whether a file is one, which meshes it wants, and whether these are on the page. */
 import { failureOf } from './compute/messages.ts';
 import type { Side } from './landmarks.ts';
 import { SIDES } from './landmarks.ts';
@@ -10,18 +10,18 @@ import type { AwaitedMap, WantedMesh } from './store/awaited.ts';
 import type { MeshFile, State } from './store/state.ts';
 import { isMapFile as isMap, wantedMeshes } from './wasm/page.js';
 
-/** The ending of map files, as a chooser is told. */
+/** The ending of map files, for a file chooser. */
 export const MAP_ENDING = '.conemap';
 
-/** Whether a file says of itself that it is a map file. */
+/** Whether a file begins like a map file. */
 export function isMapFile({ bytes }: Pick<NamedBytes, 'bytes'>): boolean {
-  // Only its beginning is handed to the core.
+  // The core is given only the file's beginning.
   return isMap(bytes.subarray(0, 8));
 }
 
 const hashes = new WeakMap<MeshFile, string>();
 
-/** What tells a mesh from others; a mesh never changes. */
+/** The hash that identifies a mesh; a mesh never changes. */
 function hashOf(file: MeshFile): string {
   const hash = hashes.get(file) ?? file.mesh.checkedHash();
   hashes.set(file, hash);
@@ -32,7 +32,7 @@ function isIt(wanted: WantedMesh, file: MeshFile | null): boolean {
   return file !== null && hashOf(file) === wanted.checked;
 }
 
-/** A map file with the meshes that it wants, by its header. Throws {@link FileRefused}. */
+/** A map file with the meshes that its header names. Throws {@link FileRefused}. */
 export function headOf({ name, bytes }: NamedBytes): AwaitedMap {
   try {
     const [source, target] = JSON.parse(wantedMeshes(bytes)) as [WantedMesh, WantedMesh];
@@ -43,20 +43,20 @@ export function headOf({ name, bytes }: NamedBytes): AwaitedMap {
   }
 }
 
-/** The sides on which a map's meshes are not. */
+/** The sides of the page that lack the map's mesh. */
 export function missingOf(map: AwaitedMap, meshes: State['meshes']): readonly Side[] {
   return SIDES.filter((side) => !isIt(map.meshes[side], meshes[side]));
 }
 
-/** The side of a map that a mesh is the only right one for; `null` where it is none or both. */
+/** The only side of a map that a mesh fits; `null` where it fits neither or both. */
 export function sideIn(map: AwaitedMap, file: MeshFile): Side | null {
   const [isSource, isTarget] = map.meshes.map((wanted) => isIt(wanted, file));
   return isSource === isTarget ? null : isSource === true ? 0 : 1;
 }
 
 /**
- * Whether a map can be opened now, or waits for meshes: a side that is empty, or a demo's, takes what comes. `before` is the page
- * without the meshes that come with the map. Throws {@link FileRefused} where a mesh is another one.
+ * Whether a map can be opened now, or waits for meshes: it can wait for a side that is empty or shows a demo. `before` is the page without
+ * the meshes that come with the map. Throws {@link FileRefused} where the page has another mesh.
  */
 export function checkMeshes(map: AwaitedMap, meshes: State['meshes'], before: Pick<State, 'meshes' | 'demo'>): 'fits' | 'waits' {
   const missing = missingOf(map, meshes);

@@ -1,4 +1,4 @@
-/** Meshes that come in several files or in a zip: everything that belongs to one becomes one file. */
+/** Gathers meshes that come in several files or in a zip: all files that belong to a mesh become one file. */
 import type { Unzipped } from 'fflate';
 import { unzipSync } from 'fflate';
 import { failureOf } from './compute/messages.ts';
@@ -7,16 +7,16 @@ import type { NamedBytes } from './named-file.ts';
 import { endingOf, FileRefused } from './named-file.ts';
 import { meshParts, packMaterials, packMesh } from './wasm/page.js';
 
-/** Files that belong to a mesh and are none themselves. */
+/** The endings of files that belong to a mesh and are not meshes themselves. */
 const COMPANIONS = new Set(['mtl', 'png', 'jpg', 'jpeg', 'webp', 'bmp', 'tga', 'tif', 'tiff', 'bin', 'ktx2']);
 
-/** What a file chooser takes beside meshes, as it is told: their parts, and zips of all of it. */
+/** What a file chooser accepts beside meshes: their parts, and zips. */
 export const PART_ENDINGS = [...COMPANIONS, 'zip'].map((ending) => `.${ending}`).join(',');
 
-/** What a zip may hold, unpacked, in bytes; and how often its own size that may be. */
+/** The most bytes of a zip's unpacked content, and the largest ratio of these to the zip's own size. */
 const LARGEST_CONTENT = 2 ** 30;
 const LARGEST_RATIO = 200;
-/** Small zips may be packed tighter than the ratio says. */
+/** The content of a zip may always have this many bytes, whatever the ratio. */
 const ALWAYS_ALLOWED = 2 ** 24;
 const MOST_FILES = 1000;
 
@@ -24,7 +24,7 @@ function isZip({ bytes }: NamedBytes): boolean {
   return bytes[0] === 0x50 && bytes[1] === 0x4b && (bytes[2] === 3 || bytes[2] === 5);
 }
 
-/** Whether an entry is a file to look at: no folder, and none of the copies that macOS puts beside files. */
+/** Whether an entry of a zip is a file to look at: not a folder, and not one of the copies that macOS puts beside files. */
 function isFile(path: string): boolean {
   return !path.endsWith('/') && !/(^|\/)(__MACOSX\/|\._|\.DS_Store$)/.test(path);
 }
@@ -58,12 +58,12 @@ function filesOfZip(zip: NamedBytes): NamedBytes[] {
   return Object.entries(files).map(([name, bytes]) => ({ name, bytes }));
 }
 
-/** All files, those of zips in the place of the zips. */
+/** All files, with each zip replaced by its files. */
 function unzipped(files: readonly NamedBytes[]): NamedBytes[] {
   return files.flatMap((file) => (isZip(file) ? filesOfZip(file) : [file]));
 }
 
-/** The file that another one calls so: by its path beside it, or else by its bare name. */
+/** The file that `by` refers to under a name: by its path beside `by`, or else by its bare name. */
 function called(name: string, by: NamedBytes, files: readonly NamedBytes[]): NamedBytes | null {
   const folder = by.name.slice(0, by.name.lastIndexOf('/') + 1);
   const path = folder + name.replace(/^\.\//, '');
@@ -71,7 +71,7 @@ function called(name: string, by: NamedBytes, files: readonly NamedBytes[]): Nam
   return files.find((file) => file.name === path) ?? files.find((file) => bare(file.name) === bare(name)) ?? null;
 }
 
-/** A mesh with the files that it names packed into it; itself where it names none. */
+/** A mesh with the files that it names packed into it; the mesh itself where it names none. */
 function packed(mesh: NamedBytes, files: readonly NamedBytes[]): NamedBytes {
   const parts = meshParts(mesh.bytes);
   const [buffers, images] = [parts.buffers(), parts.images()];
@@ -98,14 +98,17 @@ function packed(mesh: NamedBytes, files: readonly NamedBytes[]): NamedBytes {
 }
 
 const PICTURES = new Set(['png', 'jpg', 'jpeg', 'webp']);
-/** Meshes that can have places in a picture that is a file of its own. */
+/** The endings of meshes that can have texture coordinates into a separate picture. */
 const PICTURED = new Set(['obj', 'ply']);
 
 function stem(path: string): string {
   return path.replace(/^.*\//, '').replace(/\.[^.]*$/, '');
 }
 
-/** What comes with a mesh: the materials that it names with their pictures, or one that is called like it, or is the only one beside the only mesh. */
+/**
+ * What is laid on a mesh: the materials that it names with their pictures, or the picture with the mesh's name, or the only picture beside
+ * the only mesh.
+ */
 function pictureOf(mesh: NamedBytes, files: readonly NamedBytes[]): Uint8Array | null {
   if (!PICTURED.has(endingOf(mesh.name))) {
     return null;
@@ -123,8 +126,8 @@ function pictureOf(mesh: NamedBytes, files: readonly NamedBytes[]): Uint8Array |
 }
 
 /**
- * The files with zips unpacked and what belongs to a mesh packed into it; names are without folders. What lies on an OBJ
- * or PLY file stays with it. Throws {@link FileRefused}.
+ * The files with zips unpacked and the parts of each mesh packed into it; names are without folders. A picture of an OBJ or PLY file stays
+ * with that file. Throws {@link FileRefused}.
  */
 export function gathered(given: readonly NamedBytes[]): NamedBytes[] {
   const files = unzipped(given);

@@ -1,4 +1,4 @@
-/** The only place that turns codes into sentences. */
+/** The sentences of the page: the only place that turns codes into sentences. */
 import type { Failure } from './compute/messages.ts';
 import type { Pair, Suggestion } from './landmarks.ts';
 import type { Finding, RepairOffer } from './report.ts';
@@ -28,14 +28,14 @@ const INSTEAD: Readonly<Record<string, string>> = {
 };
 
 function asSentence(text: string): string {
-  // An option of the command line is no help here.
+  // An option of the command line does not help in the page.
   const trimmed = text.trim().replace(/ \(--[a-z-]+\)/g, '');
   // glTF is a name and stays.
   const start = trimmed.startsWith('glTF') ? trimmed : trimmed.charAt(0).toUpperCase() + trimmed.slice(1);
   return /[.!?]$/.test(start) ? start : `${start}.`;
 }
 
-/** A failure in words; without words for its code, the core's own. */
+/** A sentence about a failure; the core's own words where the code has none here. */
 export function failureSentence(failure: Failure): string {
   const instead = INSTEAD[failure.code];
   if (instead !== undefined) {
@@ -51,7 +51,7 @@ export function fileSentence(file: string, failure: Failure): string {
   return `${file}: ${failureSentence(failure)}`;
 }
 
-/** A repair that is offered, as a command. */
+/** The label of the button for a repair that is offered. */
 export function repairCommand(offer: RepairOffer): string {
   if (offer.kind === 'keep-largest') {
     return `Keep the largest part (${Math.round(100 * offer.share)} % of the area)`;
@@ -59,12 +59,12 @@ export function repairCommand(offer: RepairOffer): string {
   return `Cut ${count(offer.handles, 'handle')} and cap ${offer.handles === 1 ? 'it' : 'them'}`;
 }
 
-/** What was done to a mesh that had been refused; `repairs` is what the core says. */
+/** A sentence about what was done to a mesh that had been refused; `repairs` is the core's account of it. */
 export function repairedSentence(file: string, repairs: string): string {
   return `${file}: ${asSentence(repairs)}`;
 }
 
-/** A number of things: "1 pair", "12 pairs". */
+/** A number of things, such as "1 pair" or "12 pairs". */
 export function count(number: number, thing: string): string {
   return `${number} ${thing}${number === 1 ? '' : 's'}`;
 }
@@ -74,7 +74,7 @@ export function pairName({ number, label }: Pick<Pair, 'number' | 'label'>): str
   return label === '' ? String(number) : `${number} (${label})`;
 }
 
-/** A finding in the page's numbers; `name` gives a pair's name from its place in the run's order. */
+/** A sentence about a finding; `name` gives a pair's name from its place in the run's order. */
 export function findingSentence(finding: Finding, name: (order: number) => string): string {
   const [first, second] = finding.pairs;
   if (finding.kind === 'swapped' && first !== undefined && second !== undefined) {
@@ -91,56 +91,56 @@ export function pairGone(number: number): string {
   return `Landmark pair ${number} deleted.`;
 }
 
-/** A mesh without files that it names. */
+/** A sentence about a mesh that came without files that it names. */
 export function missingParts(name: string, parts: readonly string[]): string {
   return `${name}: its data is in ${parts.join(', ')}. Drop all of these files at once.`;
 }
 
-/** What there is to know about landmarks that were read: the first sentence, and how many more there are. */
+/** The first remark about landmarks that were read, and how many more there are. */
 export function remarksSentence(remarks: readonly string[]): string {
   const [first = '', ...more] = remarks;
   return `${asSentence(first)}${more.length === 0 ? '' : ` ${count(more.length, 'more remark')}.`}`;
 }
 
-/** Pictures of a mesh that the browser cannot show. */
+/** A sentence about pictures of a mesh that the browser cannot decode. */
 export function unreadPictures(name: string, number: number): string {
   return `${name}: this browser cannot decode ${count(number, 'picture')} of it; the mesh is shown without.`;
 }
 
-/** Pairs that were removed with their meshes, or replaced. */
+/** A sentence about pairs that were replaced, or removed with their meshes. */
 export function pairsGone(number: number): string {
   return `${count(number, 'landmark pair')} removed.`;
 }
 
-/** Pairs that a search has found, and how many others were removed for them. */
+/** A sentence about the pairs that a search has found, and about others that were removed for them. */
 export function foundSentence(came: number, went: number): string {
   const others = went === 0 ? '' : ` ${count(went, 'other pair')} removed.`;
   return `${count(came, 'landmark pair')} found.${others}`;
 }
 
-/** Pairs that were added or changed by another answer of a search, and how many others were removed for them. */
+/** A sentence about pairs that another answer of a search has added or changed, and about others that were removed for them. */
 export function takenSentence(came: number, went: number): string {
   const others = went === 0 ? '' : ` ${count(went, 'other pair')} removed.`;
   return `${count(came, 'landmark pair')} placed as in the chosen answer.${others}`;
 }
 
-/** Soft pairs that a run has moved, the farthest by so much in units of the root of the target's area. */
+/** A sentence about soft pairs that a run has moved; `farthest` is the longest way, in units of the root of the target's area. */
 export function settledSentence(settled: number, farthest: number): string {
   const pairs = settled === 1 ? 'The soft pair' : count(settled, 'soft pair');
   return `${pairs} settled, ${settled === 1 ? '' : 'at most '}${(100 * farthest).toFixed(1)} % of the target’s size away, and ${settled === 1 ? 'is' : 'are'} held there.`;
 }
 
-/** Pairs whose points on one mesh were removed with it. */
+/** A sentence about pairs whose points on one mesh were removed with it. */
 export function pointsGone(number: number): string {
   return `${count(number, 'landmark pair')} lost a point with its mesh; the partners wait for new ones.`;
 }
 
-/** Pairs whose points on one mesh gave way to those of a file. */
+/** A sentence about pairs whose points on one mesh were replaced by those of a file. */
 export function pointsReplaced(number: number): string {
   return `${count(number, 'landmark pair')} lost a point.`;
 }
 
-/** All pairs but the locked ones deleted. */
+/** A sentence about the deletion of all pairs but the locked ones. */
 export function clearedSentence(deleted: number, locked: number): string {
   const stayed = locked === 0 ? '' : ` ${count(locked, 'locked pair')} stayed.`;
   return `${count(deleted, 'landmark pair')} deleted.${stayed}`;
@@ -148,7 +148,7 @@ export function clearedSentence(deleted: number, locked: number): string {
 
 export const SENTENCES = {
   noWebGl:
-    'This browser gives no WebGL 2, so the meshes cannot be drawn; files are read and maps made all the same. Turn on hardware acceleration or use a current browser.',
+    'This browser offers no WebGL 2, so the meshes cannot be drawn; files can still be read, and maps made. Turn on hardware acceleration or use a current browser.',
   noCore: 'The program could not be loaded. Reload the page; if that does not help, use a current browser.',
   contextLost: 'The browser has lost its connection to the graphics card, so the meshes are not drawn. They come back by themselves when it is there again.',
   contextGone: 'The views could not be rebuilt after the graphics card was lost. Reload the page.',
@@ -172,7 +172,7 @@ export const SENTENCES = {
   tooLarge: 'is larger than 1 GiB, more than the page can take.',
   nothingToSuggest: 'No further place to suggest: the landmarks cover this mesh.',
   bringingBack: 'Bringing back your work…',
-  keepsNothing: 'This browser lets the page keep nothing: save your landmarks as a file before you leave.',
+  keepsNothing: 'In this browser the page can keep nothing: save your landmarks as a file before you leave.',
   keepsNoMore: 'Your work is not kept in this browser any more: save your landmarks as a file before you leave.',
   noRoom: 'This browser has no room left to keep your work: save your landmarks as a file before you leave.',
   keptUnreadable: 'Work of an earlier visit could not be read and was left out.',
@@ -180,9 +180,9 @@ export const SENTENCES = {
   mirrored: 'The target is its mirror image now, with the landmarks on it.',
   notItsShape: 'The source shows another shape than its own. Move its slider back to the left to place landmarks on it.',
   allLocked: 'All landmark pairs are locked. Unlock those that may go.',
-  upToDate: 'This map is of these meshes, landmarks and options already.',
+  upToDate: 'This map was made from these meshes, landmarks and options already.',
   nothingToShare: 'There is nothing to share yet: open a mesh or a demo first.',
-  noLink: 'There is no link to this: it would be too long, or the page was not opened by https, which links to your own files need. Save the project file instead: it holds everything.',
+  noLink: 'No link can be made: it would be too long, or the page was not opened by https, which links to your own files need. Save the project file instead: it holds everything.',
   aboutProject: 'One file with both meshes, the landmarks, the options, the views and the map; drop it on the page to go on',
   newVersion: 'A new version of this page is ready.',
   exchangedMeshes: 'its source is the target on the page and the other way round: swap source and target first.',
@@ -193,39 +193,39 @@ export const SENTENCES = {
   badPoint: 'Some landmarks do not belong to these meshes. Load the meshes that the landmark file was made for.',
 } as const;
 
-/** A point that is picked a second time. */
+/** A sentence about a point that was picked a second time. */
 export function pointTaken(side: 0 | 1, pair: number): string {
   return `This point of the ${side === 0 ? 'source' : 'target'} belongs to pair ${pair} already. Pick another one.`;
 }
 
-/** A locked pair that was to be moved or deleted. */
+/** A sentence about a locked pair that was to be moved or deleted. */
 export function pairLocked(pair: number): string {
   return `Pair ${pair} is locked. Unlock it first.`;
 }
 
-/** A length in units of a mesh's size, as a share of that. */
+/** A length in units of a mesh's size, as a percentage of that size. */
 function ofItsSize(length: number): string {
   const percent = 100 * length;
   return `${percent.toFixed(percent < 0.995 ? 2 : 1)} % of its size`;
 }
 
-/** A partner that is not quite where the mirror has it. */
+/** A sentence about a partner that does not lie exactly at its mirror image. */
 export function farPartner(side: 0 | 1, distance: number): string {
   return `The partner on the ${side === 0 ? 'source' : 'target'} lies ${ofItsSize(distance)} off its mirror image. Look whether it fits, or drag it.`;
 }
 
-/** A plane that mirrors a mesh: the best one, which fits or not, or one that was chosen. */
+/** A sentence about a plane that mirrors a mesh: the best one, which may not fit, or one that the user has chosen. */
 export function planeSentence(name: string, { misfit, fits }: { readonly misfit: number; readonly fits: boolean }, isChosen: boolean): string {
   const off = ofItsSize(misfit);
   if (isChosen) {
     return `By this plane the mirror image of the ${name} is ${off} off on average.`;
   }
   return fits
-    ? `The ${name} mirrors itself: its mirror image is ${off} off on average.`
+    ? `The ${name} is symmetric: its mirror image is ${off} off on average.`
     : `The ${name} has no plane that mirrors it: by the best one its mirror image is ${off} off on average. Choose a plane, or place both sides yourself.`;
 }
 
-/** What has changed since the map was made, in words. */
+/** A sentence about what has changed since the map was made. */
 export function staleSentence(changes: {
   readonly meshes: readonly (0 | 1)[];
   readonly placed: readonly number[];
@@ -249,27 +249,27 @@ export function staleSentence(changes: {
   return `This map was made before ${words.length === 0 ? last : `${words.join(', ')} and ${last}`}.`;
 }
 
-/** Work of an earlier visit. */
+/** The offer to continue work of an earlier visit. */
 export function offerSentence(name: string, pairs: number): string {
   return `Continue with ${name}, ${count(pairs, 'pair')}?`;
 }
 
-/** A suggestion in words. */
+/** The name of a suggestion in a sentence. */
 export function suggestionName({ letter, reason, partner }: Suggestion, all: readonly Suggestion[]): string {
   const what = reason === 'tip' ? 'the end of a limb' : 'a place far from all landmarks';
   const isThere = all.some((other) => other.letter === partner);
   return `${letter}, ${what}${partner !== null && isThere ? `, looks like ${partner}: mind left and right` : ''}`;
 }
 
-/** What to do next. */
+/** A hint at what to do next. */
 export function hint(options: {
   /** How many meshes there are, of two. */
   readonly meshes: number;
-  /** The pair that waits for its other point, what the mesh is called on which it is asked for, and whether the map proposes one. */
+  /** The pair that waits for its other point, the name of the mesh on which it is asked for, and whether the map proposes one. */
   readonly asked: { readonly pair: number; readonly mesh: string; readonly isProposed: boolean } | null;
   /** Pairs with both points. */
   readonly pairs: number;
-  /** Half pairs that wait behind the one whose turn it is. */
+  /** The number of half pairs that wait behind the one whose turn it is. */
   readonly waiting: number;
 }): string {
   if (options.meshes < 2) {
@@ -302,29 +302,29 @@ export const LINK_REFUSED = {
 } as const;
 export type LinkFault = keyof typeof LINK_REFUSED;
 
-/** A mesh that is not the one of a map. `wanted` is what the map calls the right one. */
+/** A sentence about a mesh that is not the map's. `wanted` is the name of the right one in the map. */
 export function otherMesh(side: 0 | 1, found: string, wanted: string | null): string {
   const right = wanted === null || wanted === found ? '' : ` (${wanted})`;
   return `the ${side === 0 ? 'source' : 'target'}, ${found}, is not the mesh that this map was made with${right}. Drop the map together with the right one.`;
 }
 
-/** Meshes that a map waits for. */
+/** A sentence about the meshes that a map waits for. */
 export function mapWaits(name: string, missing: readonly { readonly side: 0 | 1; readonly name: string | null }[]): string {
   const meshes = missing.map(({ side, name: mesh }) => `its ${side === 0 ? 'source' : 'target'}${mesh === null ? '' : ` (${mesh})`}`);
   return `${name} waits for ${listed(meshes)}: drop ${missing.length === 1 ? 'it' : 'them'} here.`;
 }
 
-/** A map that was not computed on the page. */
+/** A sentence about a map that was opened from a file. */
 export function reopenedSentence(name: string): string {
   return `Opened from ${name}: nothing was computed. Its pieces were checked as a map of these meshes, and measured anew.`;
 }
 
-/** Several names in a sentence. */
+/** Several names joined for a sentence. */
 export function listed(names: readonly string[]): string {
   return names.length < 2 ? names.join('') : `${names.slice(0, -1).join(', ')} and ${names.at(-1) ?? ''}`;
 }
 
-/** Why a file of a link did not come. */
+/** Why a file of a link could not be fetched. */
 export function fetchSentence(
   fault: { readonly kind: 'unreachable' | 'moved' | 'too-large' | 'cancelled' } | { readonly kind: 'status'; readonly status: number },
   name: string,
@@ -335,7 +335,7 @@ export function fetchSentence(
     case 'unreachable':
       return `${where} does not answer, or does not let other pages read ${name}. Download the file there and drop it here.`;
     case 'moved':
-      return `${where} sends ${name} on to another address, which nobody agreed to. Ask for a link with that address, or download the file and drop it here.`;
+      return `${where} redirects ${name} to another address, to which you have not agreed. Ask for a link with that address, or download the file and drop it here.`;
     case 'status':
       return fault.status === 404
         ? `${where} has no ${name} at this address. Ask for the link again.`
@@ -347,29 +347,29 @@ export function fetchSentence(
   }
 }
 
-/** What a link asks before files are loaded from other hosts: "Load cat.obj and lion.obj (2 files) from example.org?" */
+/** The question before files of a link are loaded from other hosts: "Load cat.obj and lion.obj (2 files) from example.org?" */
 export function loadQuestion(hosts: readonly { readonly host: string; readonly names: readonly string[] }[]): string {
   const parts = hosts.map(({ host, names }) => `${listed(names)}${names.length > 1 ? ` (${names.length} files)` : ''} from ${host}`);
   return `Load ${listed(parts)}?`;
 }
 
-/** Megabytes to read, as "12.3 MB". */
+/** A number of bytes in megabytes, such as "12.3 MB". */
 function megabytes(bytes: number): string {
   return `${(bytes / 1e6).toFixed(1)} MB`;
 }
 
-/** What is being loaded, and how much of it is there. */
+/** A sentence about the file that is being loaded, and how much of it has come. */
 export function loadingSentence(file: { readonly name: string; readonly loaded: number; readonly expected: number | null }): string {
   const of = file.expected === null ? '' : ` of ${megabytes(file.expected)}`;
   return `Loading ${file.name}: ${megabytes(file.loaded)}${of}`;
 }
 
-/** What a link waits for. */
+/** A sentence about the files that a link waits for. */
 export function filesNeeded(names: readonly string[]): string {
   return `This link needs ${listed(names)}: drop ${names.length === 1 ? 'it' : 'them'} here.`;
 }
 
-/** What to say of files that were dropped for a link and are not the ones that it means. */
+/** A sentence about files that were dropped for a link and are not those that it means. */
 export function otherFiles(given: readonly string[], needed: readonly string[]): string {
   const isSameName = given.some((name) => needed.includes(name));
   const what = given.length === 1 ? 'is not a file' : 'are not files';
@@ -377,7 +377,7 @@ export function otherFiles(given: readonly string[], needed: readonly string[]):
   return `${listed(given)} ${what} of this link.${hint} It still needs ${listed(needed)}.`;
 }
 
-/** What whoever opens a link will see. */
+/** A sentence about what whoever opens the link will see. */
 export function prospectSentence(prospect: {
   readonly needed: readonly string[];
   readonly loaded: readonly { readonly host: string }[];

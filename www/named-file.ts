@@ -1,28 +1,30 @@
-/** Files by their names, and the reasons to refuse them. */
+/** Files as names with bytes, and the error that refuses them. */
 import type { Failure } from './compute/messages.ts';
 import type { RepairOffer } from './report.ts';
 
-/** Some named bytes. */
+/** The bytes of a file with its name. */
 export interface NamedBytes {
   readonly name: string;
   readonly bytes: Uint8Array;
-  /** What comes with the mesh in them to be laid on it: a picture, or an OBJ file's materials with theirs, as the core packs them. */
+  /**
+   * What came with a mesh file to be laid on the mesh: a picture, or an OBJ file's materials with their pictures, as the core packs them.
+   */
   readonly picture?: Uint8Array;
-  /** Where a link found them; there is none for a file from a disk. */
+  /** The address from which a link has loaded the file; a file from a disk has none. */
   readonly address?: string;
 }
 
-/** What there is to know of a refusal beside its sentence. */
+/** Details of a refusal beside its sentence. */
 export interface RefusalDetail {
-  /** The repair of a mesh that would help; `null` where there is none. */
+  /** The repair that would help the refused mesh; `null` where there is none. */
   readonly offer?: RepairOffer | null;
-  /** What is refused: the file, or the mesh in it, which was read. */
+  /** What is refused: the file, or the mesh in a file that could be read. */
   readonly what?: 'file' | 'mesh';
-  /** Where it was not the file's fault. */
+  /** The failure of the program, where the file is not at fault. */
   readonly failure?: Failure;
 }
 
-/** A reason to refuse files, as a sentence. */
+/** The error that refuses files; its message is a sentence for the user. */
 export class FileRefused extends Error {
   readonly offer: RepairOffer | null;
   readonly what: 'file' | 'mesh';

@@ -1,18 +1,18 @@
-/** Numbers as the page writes them. */
+/** How the page writes numbers. */
 
 const INTEGER = new Intl.NumberFormat('en');
 
-/** 12,345 */
+/** An integer with thousands separated, such as 12,345. */
 export function integer(value: number): string {
   return INTEGER.format(value);
 }
 
-/** A share in percent, rounded down so that only what is whole is called so. */
+/** A share in percent with two decimals, rounded down so that only the whole is shown as 100 %. */
 export function percent(share: number): string {
   return `${(Math.floor(share * 10_000) / 100).toFixed(2)} %`;
 }
 
-/** A number to read: three or four figures, powers of ten where very small or large. */
+/** A number for reading: three or four digits, with a power of ten where it is very small or large. */
 export function figure(value: number): string {
   const size = Math.abs(value);
   if (!Number.isFinite(value)) {

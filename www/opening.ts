@@ -1,4 +1,4 @@
-/** What files mean that were read: finds each mesh's side, and brings landmarks and maps to their meshes. */
+/** Turns files that were read into events: finds the side of each mesh, and brings landmarks and maps to their meshes. */
 import { checkFit, examinedOf, meshFile, misfit } from './files.ts';
 import type { LandmarkFile, Side } from './landmarks.ts';
 import { otherSide, SIDES } from './landmarks.ts';
@@ -16,17 +16,17 @@ import { allowedBy } from './store/refused.ts';
 import { update } from './store/reducer.ts';
 import type { MeshFile, State } from './store/state.ts';
 
-/** A sentence that the page shows. */
+/** An event by which the page shows a sentence. */
 type Said = Extract<Event, { readonly kind: 'error' }>;
 
-/** Several sentences as one event, since the page shows the last one alone; none for none. */
+/** Several sentences as one event, since the page shows only the last event's; empty for no sentence. */
 function together(said: readonly Said[]): Said[] {
   const failure = said.findLast((each) => each.failure !== undefined)?.failure;
   const sentence = said.map((each) => each.sentence).join(' ');
   return said.length === 0 ? [] : [{ kind: 'error', sentence, ...(failure === undefined ? {} : { failure }) }];
 }
 
-/** What to say where landmarks that stay do not fit the meshes that come. */
+/** A sentence for landmarks that stay on the page and do not fit the meshes that come; empty where they fit. */
 function keptMisfit(events: readonly Event[], state: State): Said[] {
   const failure = misfit(events.reduce(update, state));
   return failure === null ? [] : [{ kind: 'error', sentence: `${failureSentence(failure)} ${SENTENCES.keptMisfit}` }];
@@ -39,7 +39,7 @@ function sideByName(name: string, file: LandmarkFile | null, state: State): Side
   return isSource === isTarget ? null : isSource ? 0 : 1;
 }
 
-/** Sides of one or two meshes by the names of the landmark file, the place of the drop, and the order given. */
+/** The sides of one or two meshes: by the names in the landmark file, the place of the drop, and the order in which they were given. */
 function sidesOf(meshes: readonly NamedBytes[], landmarks: LandmarkFile | null, over: Side | null, state: State): Side[] {
   const [first, second] = meshes;
   if (first === undefined) {
@@ -57,22 +57,22 @@ function sidesOf(meshes: readonly NamedBytes[], landmarks: LandmarkFile | null, 
   return [named ?? (state.meshes[0] !== null && state.meshes[1] === null ? 1 : 0)];
 }
 
-/** The landmark files among some, and what they mean. */
+/** Landmark files that were given, and the events that they cause. */
 interface Landmarks {
-  /** What comes onto the meshes, which are those that it is given. */
+  /** The events that bring the landmarks onto the meshes of `names`. */
   readonly events: (names: State['meshes']) => Event[];
-  /** The file to name where its landmarks do not fit. */
+  /** The file that is named where its landmarks do not fit. */
   readonly file: NamedBytes;
-  /** The pairs of a file in the meshes' own numbers, which may name the meshes. */
+  /** The pairs of a file by the meshes' own numbers, which may name the meshes; `null` where there is no such file. */
   readonly pairs: LandmarkFile | null;
 }
 
-/** Sentences about what was read, as an event. */
+/** The remarks about files that were read, as an event; empty for no remark. */
 function told(remarks: readonly string[]): Event[] {
   return remarks.length === 0 ? [] : [{ kind: 'error', sentence: remarksSentence(remarks) }];
 }
 
-/** The pairs of files that need both meshes. */
+/** The events for the pairs of files that need both meshes to be read. */
 function pairEvents(files: readonly NamedBytes[], [source, target]: State['meshes']): Event[] {
   if (source === null || target === null) {
     throw new FileRefused(`${files[0]?.name ?? ''}: ${SENTENCES.meshesFirst}`);
@@ -82,7 +82,7 @@ function pairEvents(files: readonly NamedBytes[], [source, target]: State['meshe
   return [{ kind: 'landmarks', file: named }, ...told(remarks)];
 }
 
-/** The points of a file for one mesh: the one it was dropped on, that is called like it, or that is alone. */
+/** The events for a file with the points of one mesh: the mesh on which it was dropped, else the one with its name, else the only one. */
 function sideEvents(file: NamedBytes, over: Side | null, meshes: State['meshes']): Event[] {
   const names = meshes.map((mesh) => mesh?.name ?? null);
   const there = SIDES.filter((side) => meshes[side] !== null);
@@ -99,7 +99,7 @@ function sideEvents(file: NamedBytes, over: Side | null, meshes: State['meshes']
   return [{ kind: 'side-marks', side, points, name: file.name }, ...told(remarks)];
 }
 
-/** The landmark files that were given, one or one for each mesh; `null` for none. */
+/** The landmark files that were given, one for both meshes or one for each; `null` for none. */
 function landmarksOf(files: readonly GivenMarks[], over: Side | null): Landmarks | null {
   const [first, second] = files;
   if (first === undefined) {
@@ -125,7 +125,7 @@ function landmarksOf(files: readonly GivenMarks[], over: Side | null): Landmarks
   return { events, file: first, pairs: null };
 }
 
-/** The sides of one or two meshes that a map wants; `sides` where it does not tell. */
+/** The sides on which a map wants one or two meshes; `sides` where the map does not say. */
 function sidesWanted(meshes: readonly MeshFile[], sides: readonly Side[], map: AwaitedMap | null): readonly Side[] {
   const [first, second] = meshes;
   if (map === null || first === undefined) {
@@ -136,22 +136,22 @@ function sidesWanted(meshes: readonly MeshFile[], sides: readonly Side[], map: A
   return side === null ? sides : [side, otherSide(side)];
 }
 
-/** What files mean. */
+/** What opening files does to the page. */
 export interface Opening {
-  /** All or none. */
+  /** The events, which are dispatched all together. */
   readonly events: readonly Event[];
-  /** To be opened after them, now or when its meshes have come. */
+  /** The map that is opened after them, at once or when its meshes have come; `null` for none. */
   readonly map: AwaitedMap | null;
 }
 
-/** Files that were read. */
+/** Files that were read, by what they hold. */
 export interface Arrivals {
   readonly maps: readonly NamedBytes[];
   readonly meshes: readonly ReadFile[];
   readonly landmarks: readonly GivenMarks[];
 }
 
-/** The mesh files among some that are to be read: none where they are more than the page takes. Throws {@link FileRefused}. */
+/** The mesh files that are to be read. Throws {@link FileRefused} where there are more files than the page takes at once. */
 export function meshesAmong(files: readonly SortedFile[]): readonly SortedFile[] {
   const meshes = files.filter(({ content }) => content === 'mesh');
   if (files.filter(({ content }) => content === 'map').length > 1) {
@@ -163,7 +163,7 @@ export function meshesAmong(files: readonly SortedFile[]): readonly SortedFile[]
   return meshes;
 }
 
-/** Files with what became of the meshes among them, in their order. */
+/** Sorted files by what they hold; `readings` has the results of reading the meshes among them, in their order. */
 export function arrivalsOf(files: readonly SortedFile[], readings: readonly MeshReading[]): Arrivals {
   const meshes = files.filter(({ content }) => content === 'mesh');
   return {
@@ -180,11 +180,14 @@ export function arrivalsOf(files: readonly SortedFile[], readings: readonly Mesh
   };
 }
 
-/** What these files mean: a bad mesh leaves the good ones; of all else all or none. Throws {@link FileRefused}. */
+/**
+ * What these files do to the page: a refused mesh leaves the good ones in place; the rest comes whole or not at all. Throws {@link
+ * FileRefused}.
+ */
 export function openingOf({ maps, meshes, landmarks }: Arrivals, over: Side | null, state: State): Opening {
   const [first] = maps;
   const map = first === undefined ? null : headOf(first);
-  // A mesh that was put on a view goes there, whatever waits for it.
+  // A mesh that was dropped on a view goes there, even where a map waits for meshes.
   const wanting = map ?? (over === null ? state.awaited : null);
   const marks = landmarksOf(landmarks, over);
   const sides = sidesOf(meshes.map(({ file }) => file), marks?.pairs ?? null, over, state);
@@ -192,18 +195,18 @@ export function openingOf({ maps, meshes, landmarks }: Arrivals, over: Side | nu
   return { events: eventsOfRead(read, { landmarkFiles: landmarks, landmarks: marks, map }, state), map };
 }
 
-/** The meshes among some files that were read, and what became of the others. */
+/** The meshes among some files, sorted by whether they were read or refused. */
 interface ReadMeshes {
   readonly loaded: readonly { readonly side: Side; readonly file: MeshFile }[];
-  /** Those that were refused as meshes: they are shown, and a repair may help. */
+  /** Refused meshes that can be shown, and that a repair may help. */
   readonly refused: readonly RefusedMesh[];
-  /** Why the others were refused. */
+  /** Why the other meshes were refused. */
   readonly faults: readonly FileRefused[];
-  /** What of the colours of the good ones cannot be used, in sentences. */
+  /** Sentences about colours of the good meshes that cannot be used. */
   readonly remarks: readonly string[];
 }
 
-/** Gives back the core's memory of what does not come onto the page. */
+/** Frees the core's memory of meshes that do not come onto the page. */
 function free({ loaded, refused }: ReadMeshes): void {
   loaded.forEach(({ file }) => {
     file.mesh.free();
@@ -213,12 +216,12 @@ function free({ loaded, refused }: ReadMeshes): void {
   });
 }
 
-/** A mesh that was refused, with what is wrong with it; `null` where the file has no mesh to be seen. */
+/** A refused mesh with its defects; `null` where the file has no mesh that can be shown. */
 function refusedMesh(given: Pick<RefusedMesh, 'side' | 'file' | 'allowed'>, { sentence, offer, defects }: BadMesh): RefusedMesh | null {
   return defects === null ? null : { ...given, offer, sentence, examined: examinedOf(defects) };
 }
 
-/** Meshes for these sides, each by itself: a good one is not given up for a bad one. */
+/** Takes the meshes for their sides one by one, so that a bad one does not stop a good one. */
 function metMeshes(meshes: readonly ReadFile[], sides: readonly Side[]): ReadMeshes {
   const [loaded, refused, faults, remarks]: [{ side: Side; file: MeshFile }[], RefusedMesh[], FileRefused[], string[]] = [[], [], [], []];
   const read = { loaded, refused, faults, remarks };
@@ -244,17 +247,17 @@ function metMeshes(meshes: readonly ReadFile[], sides: readonly Side[]): ReadMes
   return read;
 }
 
-/** What of a mesh's colours cannot be used, in sentences with its name. */
+/** Sentences, with the mesh's name, about colours of a mesh that cannot be used. */
 function remarksOn({ file, reading }: ReadFile): string[] {
   return reading.kind === 'bad' || reading.remarks.length === 0 ? [] : [`${file.name}: ${remarksSentence(reading.remarks)}`];
 }
 
-/** Sentences as an event. */
+/** Sentences as one event; empty for none. */
 function saidOfLooks(sentences: readonly string[]): Said[] {
   return sentences.length === 0 ? [] : [{ kind: 'error', sentence: sentences.join(' ') }];
 }
 
-/** Read meshes on the sides that a map wants, where all were good. */
+/** The meshes moved to the sides on which a map wants them, where all were good. */
 function seated(read: ReadMeshes, wanting: AwaitedMap | null): ReadMeshes {
   const { loaded, refused, faults } = read;
   if (refused.length + faults.length > 0) {
@@ -265,14 +268,14 @@ function seated(read: ReadMeshes, wanting: AwaitedMap | null): ReadMeshes {
   return { ...read, loaded: loaded.map(({ file }, index) => ({ side: sides[index] ?? 0, file })) };
 }
 
-/** What came with meshes. */
+/** The files that came with meshes. */
 interface Companions {
   readonly landmarkFiles: readonly GivenMarks[];
   readonly landmarks: Landmarks | null;
   readonly map: AwaitedMap | null;
 }
 
-/** The events of good meshes that came with bad ones; `landmarks` came with them, too, and wait for these. */
+/** The events of the good meshes that came with bad ones. The landmarks that came with them wait until the refused meshes are repaired. */
 function eventsBesideBad(read: ReadMeshes, landmarks: readonly GivenMarks[], state: State): Event[] {
   const meshes = read.loaded.map((mesh): Event => ({ kind: 'mesh', ...mesh }));
   const refused: Event[] = read.refused.length === 0 ? [] : [{ kind: 'refused', refused: { meshes: read.refused, landmarks } }];
@@ -282,7 +285,7 @@ function eventsBesideBad(read: ReadMeshes, landmarks: readonly GivenMarks[], sta
   return [...meshes, ...refused, ...together(said)];
 }
 
-/** The events that landmark files mean beside those of meshes; all or none. Throws {@link FileRefused}. */
+/** The events of meshes together with those of the landmark files; all or none. Throws {@link FileRefused}. */
 function withLandmarkFiles(events: readonly Event[], landmarks: Landmarks | null, state: State): Event[] {
   if (landmarks === null) {
     return [...events, ...keptMisfit(events, state)];
@@ -292,7 +295,7 @@ function withLandmarkFiles(events: readonly Event[], landmarks: Landmarks | null
   return all;
 }
 
-/** The events of meshes whose sides are known, and of a file of pairs for them. As {@link openingOf}. */
+/** The events of meshes whose sides are known, and of a file of pairs for them. Throws {@link FileRefused}. */
 export function eventsOfSides(meshes: readonly [ReadFile | null, ReadFile | null], pairs: NamedBytes | null, state: State): Event[] {
   const sides = SIDES.filter((side) => meshes[side] !== null);
   const landmarkFiles = pairs === null ? [] : [{ ...pairs, content: 'pairs' as const }];
@@ -301,13 +304,13 @@ export function eventsOfSides(meshes: readonly [ReadFile | null, ReadFile | null
   return eventsOfRead(read, { landmarkFiles, landmarks, map: null }, state);
 }
 
-/** Several reasons to refuse files as one, which is told with the first failure that was not a file's fault. */
+/** Several refusals as one, which carries the first failure of the program among them. */
 function allOf(faults: readonly FileRefused[]): FileRefused {
   const failure = faults.find((fault) => fault.failure !== null)?.failure ?? null;
   return new FileRefused(faults.map(({ message }) => message).join(' '), failure === null ? {} : { failure });
 }
 
-/** The events of meshes that were read, and of what came with them. Throws {@link FileRefused}. */
+/** The events of meshes that were read, and of the files that came with them. Throws {@link FileRefused}. */
 function eventsOfRead(read: ReadMeshes, { landmarkFiles, landmarks, map }: Companions, state: State): Event[] {
   if (read.faults.length > 0 && read.loaded.length + read.refused.length === 0) {
     throw allOf(read.faults);
@@ -327,7 +330,7 @@ function eventsOfRead(read: ReadMeshes, { landmarkFiles, landmarks, map }: Compa
   }
 }
 
-/** The landmark files that waited for a mesh which is there now, beside its event. */
+/** The event of a mesh together with those of the landmark files that waited for it. */
 function withWaiting(mesh: Event, side: Side, waiting: readonly GivenMarks[], state: State): Event[] {
   try {
     return withLandmarkFiles([mesh], landmarksOf(waiting, side), state);
@@ -339,7 +342,10 @@ function withWaiting(mesh: Event, side: Side, waiting: readonly GivenMarks[], st
   }
 }
 
-/** The events of a refused mesh that was read anew, with what its offer allows; with the last one come the landmarks that waited. */
+/**
+ * The events of a refused mesh that was read again with the repair that was offered; after the last such mesh the waiting landmarks come,
+ * too.
+ */
 export function repairedEvents(mesh: RefusedMesh, reading: MeshReading, state: State): Event[] {
   const { side, file } = mesh;
   const others = state.refused?.meshes.filter((other) => other !== mesh) ?? [];

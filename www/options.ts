@@ -1,4 +1,4 @@
-/** What can be chosen of a run, in words, and what is usual. A choice that the core does not have, or has beside these, does not compile. */
+/** The options of a run in words, and the usual ones. A list with an option too few or too many for the core does not compile. */
 import type { RunOptions, Scheme } from './report.ts';
 
 type Texts<K extends Exclude<keyof RunOptions, 'ownCones'>> = Readonly<Record<RunOptions[K], string>>;
@@ -30,7 +30,9 @@ export const BORDERS: Texts<'borders'> = {
   missing: 'Missing data',
 };
 
-/** What is chosen where nobody chooses; a test holds it against the core's, which comes after the page. */
+/**
+ * The options of a run where the user chooses none. The page needs them before the core is loaded; a test compares them with the core's.
+ */
 export const USUAL_OPTIONS: RunOptions = {
   method: 'relaxed',
   base: 'joint',
@@ -40,8 +42,8 @@ export const USUAL_OPTIONS: RunOptions = {
   borders: 'guess',
 };
 
-/** The structure of the flow that the method goes by, likewise. */
+/** The discrete conformal structure of the method's flow; compared with the core's by the same test. */
 export const USUAL_SCHEME: Scheme = 'inversive';
 
-/** The most landmarks to which the program adds cones of its own, likewise. */
+/** The most landmarks to which the program adds cones of its own; compared with the core's by the same test. */
 export const MOST_LANDMARKS_WITH_OWN_CONES = 16;

@@ -1,6 +1,6 @@
-/** Drawings as SVG text. */
+/** Text for SVG files. */
 
-/** A text as the content of an element, or as an attribute's value. */
+/** A text escaped for use as the content of an element or as an attribute's value. */
 export function escaped(text: string): string {
   return text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
 }

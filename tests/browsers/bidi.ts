@@ -1,4 +1,4 @@
-/** Firefox and Chromium, driven by WebDriver BiDi. */
+/** Drives Firefox and Chromium by WebDriver BiDi. */
 import type { LaunchOptions } from 'puppeteer-core';
 import puppeteer from 'puppeteer-core';
 import type { Browser, Launcher } from './browser.ts';
@@ -10,7 +10,7 @@ async function begin(options: LaunchOptions): Promise<Browser> {
   await page.setViewport({ width: 1280, height: 800 });
   return {
     open: async (url) => {
-      // Another fragment of the same address would not load the page again.
+      // An address that differs only behind the `#` would not load the page again.
       await page.goto('about:blank');
       await page.goto(url);
     },
@@ -28,7 +28,7 @@ async function begin(options: LaunchOptions): Promise<Browser> {
   };
 }
 
-/** Headless Firefox has no WebGL 2 where there is no graphics card: with a window it has. */
+/** Firefox. Without a graphics card it has no WebGL 2 when it is headless, but has it with a window. */
 function firefox(name: string, headless: boolean): Launcher {
   return {
     name,

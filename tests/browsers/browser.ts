@@ -1,4 +1,4 @@
-/** What the visit does with a browser, whichever it is. */
+/** The actions of the visit on a browser, the same for all browsers. */
 import { existsSync } from 'node:fs';
 
 /** A browser with one window, in which the page is visited. */
@@ -13,20 +13,20 @@ export interface Browser {
   close(): Promise<void>;
 }
 
-/** How a browser is begun. */
+/** Begins a browser. */
 export interface Launcher {
   readonly name: string;
-  /** Where its program is; `null` where it is not installed. */
+  /** The path of its program; `null` where it is not installed. */
   readonly program: string | null;
   begin(program: string): Promise<Browser>;
 }
 
-/** The first of some paths that is there. */
+/** The first of some paths that exists; `null` for none. */
 export function firstOf(paths: readonly (string | undefined)[]): string | null {
   return paths.find((path) => path !== undefined && existsSync(path)) ?? null;
 }
 
-/** Asks again until a script's value is as wanted. */
+/** Evaluates a script again and again until its value is as wanted. */
 export async function until(browser: Browser, body: string, isWanted: (value: unknown) => boolean, seconds: number): Promise<void> {
   const end = Date.now() + 1000 * seconds;
   for (;;) {

@@ -1,8 +1,8 @@
-/** The built page on a port of its own. */
+/** Serves the built page on a port of its own. */
 import { preview } from 'vite';
 import { freePort } from '../web/free-port.ts';
 
-/** The page as it is served. */
+/** The server of the page. */
 export interface Host {
   readonly url: string;
   close(): Promise<void>;

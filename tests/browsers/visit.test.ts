@@ -1,6 +1,6 @@
 /**
- * One visit of the built page in every browser that is installed: the first demo is seen, own files are dropped and mapped, steps are
- * taken back, a run is cancelled, and a reload loses nothing. Browsers that are not installed are shown as left out.
+ * Visits the built page in every browser that is installed: the first demo is seen, own files are dropped and mapped, steps are undone, a
+ * run is cancelled, and a reload loses nothing. Browsers that are not installed are reported as skipped.
  */
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { ownFiles } from '../web/own-files.ts';
@@ -11,7 +11,7 @@ import type { Host } from './host.ts';
 import { serve } from './host.ts';
 import { WEBKIT } from './webkit.ts';
 
-/** In seconds. */
+/** The longest times of loading and of mapping, in seconds. */
 const LOADING = 120;
 const MAPPING = 240;
 
@@ -20,7 +20,7 @@ const PAIRS = 'return Number(document.body.dataset.pairs);';
 const NAMES = `return ['source', 'target'].map((side) => document.getElementById('view-' + side).textContent).join(' ');`;
 const ERROR = `const error = document.getElementById('error'); return error !== null && !error.hidden ? error.textContent : '';`;
 
-/** How many colours each half of the canvas shows beside its corner's, right after a frame that a small turn asks for. */
+/** The number of colours that each half of the canvas shows beside that of its corner, right after a frame that a small turn has caused. */
 const COLOURS = `return new Promise((resolve) => {
   const turn = (id) => document.querySelector(id).dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft', bubbles: true }));
   turn('#view-source');
@@ -47,7 +47,7 @@ afterAll(async () => {
   await host.close();
 });
 
-/** Drops files as a user does. */
+/** Drops files like a user. */
 async function drop(browser: Browser, files: readonly { readonly name: string; readonly buffer: Buffer }[]): Promise<void> {
   const given = files.map(({ name, buffer }) => ({ name, base64: buffer.toString('base64') }));
   await browser.evaluate(`
@@ -65,7 +65,7 @@ async function isIdle(browser: Browser): Promise<void> {
   expect(await browser.evaluate(ERROR)).toBe('');
 }
 
-/** The map of the user's own horse and cat, from files that are dropped. */
+/** Maps the user's own horse and cat, from files that are dropped. */
 async function mapOwn(browser: Browser): Promise<void> {
   const { horse, cat, landmarks, pairs } = ownFiles();
   await drop(browser, [horse, cat, landmarks]);
@@ -125,7 +125,7 @@ function visit(launcher: Launcher): void {
       await drop(browser, [horse]);
       await until(browser, NAMES, (names) => String(names).includes('horse.obj'), LOADING);
       await isIdle(browser);
-      // What is kept is written soon after.
+      // The page writes changes of the work only after a moment.
       await new Promise((resolve) => setTimeout(resolve, 1500));
       await browser.reload();
       await until(browser, NAMES, (names) => String(names).includes('horse.obj'), LOADING);

@@ -6,7 +6,7 @@ export default defineConfig({
   test: {
     include: ['tests/browsers/**/*.test.ts'],
     environment: 'node',
-    // One browser at a time: maps are made meanwhile.
+    // One browser at a time, since each visit makes maps.
     fileParallelism: false,
     testTimeout: 300_000,
     hookTimeout: 120_000,

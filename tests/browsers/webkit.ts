@@ -1,4 +1,4 @@
-/** WebKitGTK's MiniBrowser, driven by WebDriver. */
+/** Drives WebKitGTK's MiniBrowser by WebDriver. */
 import { spawn } from 'node:child_process';
 import { Builder, By, Key } from 'selenium-webdriver';
 import type { Browser, Launcher } from './browser.ts';

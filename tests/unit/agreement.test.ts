@@ -1,6 +1,6 @@
 /**
- * Same input, same result, natively and in the page: the page's half. The native tests leave the files of their maps
- * (`tests/made_meshes/agreement.rs`); the wasm module of the page makes the same maps here.
+ * The same input gives the same result natively and in the page; this is the page's half of the test. The native tests write the files of
+ * their maps (`tests/made_meshes/agreement.rs`); here the page's wasm module makes the same maps.
  */
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -22,7 +22,7 @@ function native(id: string, name: string): Buffer {
   return readFileSync(path);
 }
 
-/** A report without times, and without what the page asks before the run. */
+/** A report without its times, and without the findings, which the page asks for before the run. */
 function report(json: string): unknown {
   return JSON.parse(json, (key, value: unknown) => {
     if (key === 'seconds' || key === 'findings') {
@@ -33,7 +33,7 @@ function report(json: string): unknown {
   });
 }
 
-/** A text as its numbers, zero without its sign, and what is between them. */
+/** A text split into its numbers, zeros without their sign, and the parts between them. */
 function numbers(text: string): readonly (number | string)[] {
   return text.split(/([-+]?\d[\d.]*(?:e[-+]?\d+)?)/i).map((part, index) => (index % 2 === 0 ? part : Number(part) + 0));
 }

@@ -1,4 +1,4 @@
-/** Coarse maps painted in small. */
+/** Thumbnails of coarse maps. */
 import { expect, test } from 'vitest';
 import type { AnswerPicture } from '../../www/compute/match-messages.ts';
 import type { Axes, Vector } from '../../www/method/axes.ts';
@@ -49,7 +49,7 @@ test('what is nearer comes later', () => {
 });
 
 test('an image has the colours of the places that it is of', () => {
-  // The image is the source turned: seen from behind it looks as the source does from the front.
+  // The image is the source turned by half a turn, so from behind it looks as the source does from the front.
   const colours = (side: 0 | 1, axes: Axes): number[][] => seenOf(PICTURE, side, axes).map(({ colour }) => colour.map((value) => Math.round(value)));
   const sorted = (all: number[][]): number[][] => all.toSorted((a, b) => a.join().localeCompare(b.join()));
   expect(sorted(colours(1, turned(0.3 + Math.PI)))).toEqual(sorted(colours(0, turned(0.3))));

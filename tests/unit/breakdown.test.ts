@@ -1,4 +1,4 @@
-/** Failures that nobody foresaw, and the report that tells of them. */
+/** Breakdowns of the program, and the report about them. */
 import { afterEach, expect, test } from 'vitest';
 import { errorOf } from '../../www/app/task.ts';
 import { failureOf } from '../../www/compute/messages.ts';

@@ -1,4 +1,4 @@
-/** Files that are brought across: what they may be, what is asked for them, and what becomes of answers that come late. */
+/** Files that are brought across: what they may be taken for, the requests to the core, and answers that come late. */
 import { afterEach, beforeAll, beforeEach, describe, expect, test, vi } from 'vitest';
 import type { Choices, DeskState, MadeFile } from '../../www/bring/desk.ts';
 import { Desk, wishOf } from '../../www/bring/desk.ts';
@@ -89,7 +89,7 @@ describe('files that were chosen', () => {
     expect(taken([FRAME, CURVES], 'a.obj', 'b.obj').given).toMatchObject({ kind: 'frames', kinds: ['frames'] });
     const { given, error } = taken([FRAME, VALUES], 'a.obj', 'heat.csv');
     expect(error).toBe('heat.csv: several files at once must be one mesh in several poses, and this is none. Bring it alone.');
-    // Those before stay.
+    // The earlier files stay.
     expect(given?.files.map(({ name }) => name)).toEqual(['a.obj', 'b.obj']);
   });
 

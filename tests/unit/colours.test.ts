@@ -1,4 +1,4 @@
-/** What style sheets, canvases, files and the views draw in one colour has one value. */
+/** A colour that is used by style sheets, canvases, files and the views has the same value in all of them. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { expect, test } from 'vitest';

@@ -1,4 +1,4 @@
-/** The map on the page beside another one: how a comparison begins, goes on and ends, and what is told of both maps. */
+/** The comparison of the map on the page with another one: how it begins, goes on and ends, and the figures of both maps. */
 import { beforeAll, describe, expect, test } from 'vitest';
 import { Comparer } from '../../www/app/compare.ts';
 import type { OtherOutput } from '../../www/compute/watch-messages.ts';
@@ -46,7 +46,7 @@ describe('a comparison', () => {
     expect(change(THERE, [{ kind: 'ui', ui: { step: 'map' } }]).comparison).toBeNull();
     expect(change(THERE, [{ kind: 'run-started' }]).comparison).toBeNull();
     expect(change(THERE, [{ kind: 'swap-meshes' }]).comparison).toBeNull();
-    // The panel may be folded, to see more.
+    // The user may fold the panel to see more of the views.
     expect(change(THERE, [{ kind: 'ui', ui: { panel: 'folded' } }]).comparison).toBe(THERE.comparison);
   });
 

@@ -1,8 +1,8 @@
-/** The core comes after the page: what asks for it earlier waits, and a failure is told and can be mended. */
+/** The core is loaded after the page: requests that come earlier wait, and a failure is reported and can be retried. */
 import { expect, test, vi } from 'vitest';
 import { coreSource, postWithCore } from '../../www/compute/core.ts';
 
-// What is posted here is not looked into.
+// The content of the module does not matter here.
 const CORE = {} as WebAssembly.Module;
 
 test('is fetched once, when it is first asked for', async () => {

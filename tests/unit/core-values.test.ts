@@ -1,4 +1,4 @@
-/** What the page says for itself, since it needs it before the core is there, is what the core says. */
+/** Values that the page repeats, because it needs them before the core is loaded, are those of the core. */
 import { beforeAll, expect, test } from 'vitest';
 import { LARGEST_FILE } from '../../www/app/open.ts';
 import { Desk, SIZES } from '../../www/bring/desk.ts';

@@ -1,4 +1,4 @@
-/** What the page relies on of the core that has been built for it. */
+/** What the page relies on in the built modules. */
 import { beforeAll, expect, test } from 'vitest';
 import type { Demo } from '../../www/store/state.ts';
 import { buildDemo, demoList, landmarkColour } from '../../www/wasm/page.js';

@@ -1,4 +1,4 @@
-/** A demo may come with a picture of its own, which goes with it. */
+/** A demo may come with a style of its own, which goes with it. */
 import { expect, test } from 'vitest';
 import type { Demo, State } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';

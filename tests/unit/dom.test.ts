@@ -1,8 +1,8 @@
-/** What the page knows of elements and of the clipboard. */
+/** Helpers for elements and the clipboard. */
 import { describe, expect, test, vi } from 'vitest';
 import { copied, isTyped } from '../../www/dom.ts';
 
-/** Elements as a browser has them, as far as it is asked. */
+/** Elements of a browser, with only the members that are used. */
 class FakeElement extends EventTarget {
   isContentEditable = false;
 }

@@ -1,4 +1,4 @@
-/** Files that come one after the other, faster than they are read. */
+/** Files that are dropped one after the other, faster than they are read. */
 import { beforeAll, beforeEach, expect, test, vi } from 'vitest';
 import { openDropped } from '../../www/app/dropped.ts';
 import { leaveTask } from '../../www/app/task.ts';
@@ -35,7 +35,7 @@ beforeEach(() => {
   store.dispatch({ kind: 'ready', demos: [] });
 });
 
-/** Drops files, each alone, without waiting for any. */
+/** Drops files one by one, without waiting for any. */
 async function drop(...files: readonly (readonly [File, 0 | 1 | null])[]): Promise<void> {
   const unasked = (): never => {
     throw new Error('nobody asks for this');
@@ -68,7 +68,7 @@ test('what was refused among them stays told', async () => {
   expect(store.state.error).toContain('bad.obj');
   await drop([own.bad, 0], [own.bad, 1]);
   expect(store.state.error?.match(/bad\.obj/g)?.length).toBeGreaterThan(0);
-  // Told until something else is brought.
+  // The error stays until something else is opened.
   await drop([own.source, 0]);
   expect(store.state.error).toBeNull();
 });
@@ -95,7 +95,7 @@ test('what breaks off holds up no other', async () => {
     reader: READER,
     maps: { open: () => Promise.reject(new Error('broken')), openOfProject: vi.fn() },
   };
-  // Whatever fails while the first file is brought, beyond what is told.
+  // Any unexpected failure while the first file is opened.
   const spy = vi.spyOn(store, 'dispatch').mockImplementationOnce(() => {
     throw new Error('broken');
   });

@@ -17,9 +17,9 @@ import type { MeshDefects } from '../../www/wasm/page.js';
 interface Case<K extends Event['kind']> {
   readonly before: State;
   readonly event: Omit<Extract<Event, { kind: K }>, 'kind'>;
-  /** The name of the step; `null` where there is none. */
+  /** The name of the step; `null` where the event makes none. */
   readonly step: string | null;
-  /** Every part of the state that is not named here stays the same object, but the history, which `step` tells. */
+  /** The parts of the state that change. Every other part must stay the same object, except the history, which `step` covers. */
   readonly changes: Partial<State>;
 }
 
@@ -44,7 +44,7 @@ const ringAt = (side: Side): RefusedMesh => ({
 const REFUSED: Refused = { meshes: [ringAt(0), ringAt(1)], landmarks: [] };
 const PLANE: MeshPlane = { of: LION ?? HORSE, choice: 'x', answer: 'awaited' };
 const HALF: State = { ...READY, pairs: [...FOUR, pair(5, 7, null)], nextId: 6 };
-/** A map is there, and has proposed a place for the half pair. */
+/** A state with a map that has proposed a place for the half pair. */
 const PROPOSAL: Proposal = { id: 5, of: 7, side: 1, point: 17 };
 const PROPOSED: State = { ...HALF, result: DONE.result, job: { kind: 'done' }, proposal: PROPOSAL };
 const TWO: State = { ...READY, pairs: FOUR.slice(0, 2) };
@@ -60,7 +60,7 @@ const TEXTURE: TexturePicture = { name: 'tiles.png', width: 1, height: 1, pixels
 const toast = (sentence: string): Pick<State, 'toast'> => ({ toast: { sentence, undo: true } });
 const gone = (work: State): State['history'] => ({ past: [{ name: 'Place pair 9', work: workOf(work) }], future: [], gesture: 1 });
 
-/** The compiler asks for a case of each kind. */
+/** One case for each kind of event; the compiler rejects a missing one. */
 const CASES: { readonly [K in Event['kind']]: Case<K> } = {
   ready: {
     before: INITIAL,
@@ -653,6 +653,6 @@ test.each(Object.entries(CASES))('%s changes what it should and nothing else', (
     const past = [...before.history.past, { name: step, work: workOf(before) }];
     expect(state.history).toEqual({ past, future: [], gesture: 'gesture' in event ? event.gesture : null });
   }
-  // An event that could be left out would prove nothing.
+  // An event without any effect would prove nothing.
   expect(state).not.toEqual(before);
 });

@@ -1,4 +1,4 @@
-/** The numbers of a result in the words of the method. */
+/** The numbers of a result, named in the words of the method. */
 import { expect, test } from 'vitest';
 import { coverageSentence } from '../../www/panels/facts.tsx';
 

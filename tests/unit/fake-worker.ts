@@ -1,20 +1,20 @@
-/** Workers that only listen, and say what a test tells them to. */
+/** Workers that only listen, and send what a test tells them to. */
 
-/** One of them, whose messages are of the type M. */
+/** Such a worker, whose messages are of the type M. */
 export interface FakeWorker<M> extends EventTarget {
-  /** What it was told. */
+  /** The messages that were posted to it. */
   readonly posted: unknown[];
   ended: boolean;
   says(data: M): void;
 }
 
 interface FakeWorkers<M> {
-  /** All that were made, the last one last. */
+  /** All workers that were made, the latest last. */
   made: FakeWorker<M>[];
   new (): FakeWorker<M>;
 }
 
-/** A class of workers of their own, to take the place of the browser's. */
+/** A class of such workers, to replace the browser's. */
 export function fakeWorkers<M>(): FakeWorkers<M> {
   return class FakeWorker extends EventTarget {
     static made: FakeWorker[] = [];

@@ -1,4 +1,4 @@
-/** Meshes and landmarks as the core reads them for the page. */
+/** Meshes and landmarks, read for the page by the core. */
 import { beforeAll, expect, test } from 'vitest';
 import { areMarksGood } from '../../www/files.ts';
 import type { MeshFile } from '../../www/store/state.ts';
@@ -9,7 +9,7 @@ import type { DemoFiles } from '../../www/reading/messages.ts';
 import { meshFile, mirroredTarget } from './reading.ts';
 import { startModules } from './modules.ts';
 
-/** A tetrahedron whose corners differ, with a vertex in front that no face uses. */
+/** A tetrahedron with distinguishable corners, and a vertex before them that no face uses. */
 const OBJ = 'v 9 9 9\nv 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\nf 2 4 3\nf 2 3 5\nf 3 4 5\nf 4 2 5\n';
 let file: MeshFile;
 
@@ -18,7 +18,7 @@ beforeAll(() => {
   file = meshFile({ name: 'corner.obj', bytes: new TextEncoder().encode(OBJ) });
 });
 
-/** Where a point of an OBJ file lies. */
+/** The position of a point of an OBJ file. */
 function placeOf(obj: string, point: unknown): number[] {
   const lines = obj.split('\n');
   const vertices = lines.filter((line) => line.startsWith('v ')).map((line) => line.split(' ').slice(1).map(Number));
@@ -76,7 +76,7 @@ test('a mesh with faults is repaired, and one that cannot be is refused in the c
   const open = meshFile({ name: 'open.obj', bytes: bytes(OBJ.replace('f 4 2 5\n', 'f 2 4 3\n')) });
   expect(open.repairs).toMatch(/double face.*dropped.*1 hole was capped/);
   expect(open.faceCount).toBe(4);
-  // The caps have no number in the file; the faces that are left keep theirs.
+  // The faces of the caps have no number in the file; the other faces keep theirs.
   const at = (face: number): boolean =>
     areMarksGood({ meshes: [open, null], pairs: [pair(1, { face, barycentric: [0.2, 0.3, 0.5] }, null)] });
   expect([at(0), at(1), at(2), at(3), at(4)]).toEqual([true, true, true, false, false]);

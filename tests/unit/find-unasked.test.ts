@@ -1,4 +1,4 @@
-/** When the page looks for landmarks by itself. */
+/** When the page begins to look for landmarks unasked. */
 import { beforeEach, expect, test, vi } from 'vitest';
 import { findUnasked } from '../../www/app/find-unasked.ts';
 import type { Event } from '../../www/store/events.ts';
@@ -8,7 +8,7 @@ import { DEMO, mesh, pair } from './fixtures.ts';
 let store = new Store();
 const start = vi.fn();
 
-/** How often a search has begun after these events, each in its turn. */
+/** The number of searches that have begun after these events, each dispatched in a turn of its own. */
 async function begun(...events: readonly Event[]): Promise<number> {
   for (const event of events) {
     store.dispatch(event);
@@ -50,7 +50,7 @@ test('nothing is looked for with landmarks, beside a demo, in large meshes, and 
   store.dispatch({ kind: 'ready', demos: [DEMO] });
   store.dispatch(source(), target(), { kind: 'demo', demo: DEMO });
   expect(await begun()).toBe(0);
-  // One mesh of the demo is still there.
+  // One mesh of the demo is still on the page.
   expect(await begun(source())).toBe(0);
   expect(await begun(target(200_000))).toBe(0);
   expect(await begun(target())).toBe(1);

@@ -1,4 +1,4 @@
-/** States and files to test with. */
+/** States and files for tests. */
 import type { AnswerPicture } from '../../www/compute/match-messages.ts';
 import type { RunOutput, SideOutput } from '../../www/compute/messages.ts';
 import type { Pair, Suggestion, SurfacePoint } from '../../www/landmarks.ts';
@@ -13,7 +13,7 @@ import { INITIAL } from '../../www/store/state.ts';
 import { workOf } from '../../www/store/work.ts';
 import type { LoadedMesh } from '../../www/wasm/page.js';
 
-/** A mesh that the core knows nothing of; `freed` counts how often it was given back. */
+/** A mesh without anything in the core; `freed` counts how often its memory was freed. */
 export function mesh(name: string, faceCount = 20): MeshFile & { readonly freed: () => number } {
   let freed = 0;
   const loaded = {
@@ -25,7 +25,7 @@ export function mesh(name: string, faceCount = 20): MeshFile & { readonly freed:
   return { name, bytes, mesh: loaded, vertexCount: 12, faceCount, turnedFaces: 0, look: 'none', repairs: '', freed: () => freed };
 }
 
-/** A pair whose number is its id, as it is until one is deleted. */
+/** A pair whose number is its id, as on a page where no pair was deleted. */
 export function pair(id: number, source: SurfacePoint | null, target: SurfacePoint | null, label = ''): Pair {
   return { id, number: id, points: [source, target], label, locked: false };
 }
@@ -48,7 +48,7 @@ export const SWAPPED: Finding = {
   side: null,
   vertices: [],
 };
-/** The same in the page's words. */
+/** The same finding as a doubt of the page. */
 export const DOUBT: Doubt = {
   ...SWAPPED,
   sentence: 'The targets of the pairs 1 and 2 look swapped: exchanged, they lie among the others as on the source. Exchange them.',
@@ -58,7 +58,7 @@ const NOWHERE = { positions: new Float32Array(9) } as SideOutput;
 export const OUTPUT = { report: '{}', base: null, distortion: new Float32Array(3), truth: new Float32Array(), sides: [NOWHERE, NOWHERE] as const, triangles: new Uint32Array([0, 1, 2]) } as RunOutput;
 export const REPORT = { warnings: [], stopped_early: false } as unknown as Report;
 
-/** Two meshes, four pairs, nothing under way. */
+/** Two meshes and four pairs, while the page is at rest. */
 export const READY: State = {
   ...INITIAL,
   ready: true,
@@ -69,12 +69,12 @@ export const READY: State = {
 };
 export const RUNNING: Running = { kind: 'running', inputs: workOf(READY), progress: null, finish: 'no', energies: [], preview: null };
 
-/** A map was made from them. */
+/** A map that was made from them. */
 export const RESULT: Result = { output: OUTPUT, report: REPORT, inputs: workOf(READY), opened: null };
 export const DONE: State = { ...READY, job: { kind: 'done' }, result: RESULT };
 export const REFUSAL: ProofReport = { verdict: 'refused', kind: 'hash', sentence: 'The map was made with another source.' };
 
-/** A map file for meshes that are nowhere. */
+/** A map file for meshes that are on no page. */
 export const AWAITED: AwaitedMap = {
   name: 'map.conemap',
   bytes: new Uint8Array([1]),
@@ -83,7 +83,7 @@ export const AWAITED: AwaitedMap = {
     { name: null, checked: 'd0' },
   ],
 };
-/** A map of READY that was opened. */
+/** A map of READY that was opened from a file. */
 export const OPENED: OpenedMap = {
   name: 'map.conemap',
   isMirrored: false,
@@ -100,7 +100,7 @@ export const OPENED: OpenedMap = {
   options: READY.options,
 };
 
-/** Pairs that a search has found, with a name for each. */
+/** A candidate with these pairs, and a label for each. */
 export function candidate(...pairs: readonly (readonly [number, number])[]): Candidate {
   return {
     pairs: pairs.map(([source, target]): [number, number] => [source, target]),
@@ -115,19 +115,19 @@ export function candidate(...pairs: readonly (readonly [number, number])[]): Can
   };
 }
 
-/** Two answers of a search beside the first two of FOUR, which were held: they exchange two targets. */
+/** Two answers of a search that held the first two pairs of FOUR: the second answer exchanges two targets. */
 export const MATCH: MatchReport = {
   verdict: { kind: 'doubtful', sentence: 'The landmarks are doubtful.', question: { source: 4, targets: [14, 15], rival: 1 }, places: [] },
   candidates: [candidate([0, 10], [1, 11], [4, 14], [5, 15]), candidate([0, 10], [1, 11], [4, 15], [5, 14], [6, 16])],
 };
 
-/** What their coarse maps look like: a corner of a cube and where it goes, the same for both. */
+/** The pictures of their coarse maps: a corner of a cube and its image, the same for both. */
 export const PICTURES: readonly AnswerPicture[] = MATCH.candidates.map(() => ({
   triangles: new Uint32Array([0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2]),
   places: [new Float32Array([-1, -1, -1, 1, -1, -1, -1, 1, -1, -1, -1, 1]), new Float32Array([1, 1, 1, -1, 1, 1, 1, -1, 1, 1, 1, -1])],
 }));
 
-/** The state after these events, each a step of its own. */
+/** The state after these events, each of which is a step of its own. */
 export function after(state: State, ...events: readonly Event[]): State {
   return events.reduce((present, event) => change(present, [event]), state);
 }

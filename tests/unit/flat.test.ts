@@ -1,4 +1,4 @@
-/** The flows that heat maps show: when they are computed, and that they go with their map. */
+/** The flows that heat maps show: when they are computed, and that they are dropped with their map. */
 import { expect, test } from 'vitest';
 import type { Flows } from '../../www/compute/watch-messages.ts';
 import { change } from '../../www/store/change.ts';
@@ -27,7 +27,7 @@ test('flows go with their map, and are wanted again where it comes back', () => 
   const without: State = change(COMPUTING, [{ kind: 'swap-meshes' }]);
   expect(without.flattening).toBeNull();
   expect(wantsFlows(without)).toBe(false);
-  // What was on its way is left out.
+  // A result that was still being computed is ignored.
   expect(change(without, [told({ kind: 'there', flows: FLOWS })]).flattening).toBeNull();
   const back = change(without, [{ kind: 'undo' }]);
   expect(back.flattening).toBeNull();

@@ -9,7 +9,7 @@ import { demoList } from '../../www/wasm/page.js';
 import { startPageModule } from './modules.ts';
 
 const FOLDER = fileURLToPath(new URL('../../www/public/demos/', import.meta.url));
-/** In bytes. */
+/** The most bytes of a picture's file. */
 const LARGEST = 12_000;
 
 beforeAll(() => {

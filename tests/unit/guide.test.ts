@@ -1,4 +1,4 @@
-/** The guide's drawings hold the theorems that they show. */
+/** The guide's drawings satisfy the theorems that they show. */
 import { describe, expect, test } from 'vitest';
 import {
   angle,
@@ -64,7 +64,7 @@ describe('the drawings', () => {
   test('opposite angles over an edge exceed pi exactly where the fourth corner lies in the circle of the others', () => {
     const [a, b, c] = TRIANGLE;
     const { centre, radius } = circumcircle(a, b, c);
-    // Below the edge from a to b, under the middle of it.
+    // A place below the middle of the edge from a to b.
     for (const share of [0.9, 1.1]) {
       const under = Math.sqrt(radius ** 2 - (centre.x - 2) ** 2) - centre.y;
       const fourth = point(2, -under * share);

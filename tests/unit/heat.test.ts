@@ -1,4 +1,4 @@
-/** Heat maps: their scales go there and back, and their values are those of maps whose distortion is known. */
+/** Heat maps: their scales can be inverted, and their values are right for maps of known distortion. */
 import { expect, test } from 'vitest';
 import type { Flows, SideFlow } from '../../www/compute/watch-messages.ts';
 import { scaleOf } from '../../www/heat/scales.ts';
@@ -25,7 +25,7 @@ test('from a value to its place on the scale and back', () => {
   expect(scaleOf('truth').place(0.005)).toBeCloseTo(0.5);
 });
 
-/** A strip of squares, and what a map makes of its points. */
+/** A strip of squares, mapped by a function of its points. */
 function strip(image: (x: number, y: number) => readonly [number, number]): Parameters<typeof valuesByPoint>[0] {
   const points = Array.from({ length: 12 }, (_, k) => [Math.floor(k / 2), k % 2] as const);
   const triangles = Array.from({ length: 5 }, (_, k) => [2 * k, 2 * k + 2, 2 * k + 1, 2 * k + 1, 2 * k + 2, 2 * k + 3]).flat();
@@ -63,7 +63,7 @@ test('the factor of the area is a mean around each point', () => {
   const [small, large] = [5 / 7, 15 / 7];
   expect(areas[0]).toBeCloseTo(small, 5);
   expect(areas[11]).toBeCloseTo(large, 5);
-  // The last but one column has squares of either size around it.
+  // The points of the last column but one lie between squares of either size.
   expect(areas[9]).toBeGreaterThan(small);
   expect(areas[9]).toBeLessThan(large);
 });

@@ -1,4 +1,4 @@
-/** Back through all steps and forth again, whatever they were; drags; meshes that no step leads to. */
+/** Undo and redo through steps of all kinds; drags; meshes that no step leads back to. */
 import { beforeEach, describe, expect, test } from 'vitest';
 import { freeForgotten } from '../../www/app/open.ts';
 import type { Side, SurfacePoint } from '../../www/landmarks.ts';
@@ -11,7 +11,7 @@ import { Store } from '../../www/store/store.ts';
 import { workOf } from '../../www/store/work.ts';
 import { after, DEMO, FOUR, mesh, pair, READY, suggestion } from './fixtures.ts';
 
-/** Numbers from 0 to 1 that a seed tells (mulberry32). */
+/** Random numbers from 0 to 1 for a seed (mulberry32). */
 function numbersOf(seed: number): () => number {
   let state = seed;
   return () => {
@@ -22,7 +22,7 @@ function numbersOf(seed: number): () => number {
   };
 }
 
-/** Events as a user might cause them, some of them impossible. */
+/** Random events like those of a user, some of them impossible. */
 function eventsOf(seed: number): (state: State) => Event[] {
   const random = numbersOf(seed);
   const whole = (end: number): number => Math.floor(random() * end);
@@ -63,7 +63,7 @@ function eventsOf(seed: number): (state: State) => Event[] {
   };
 }
 
-/** What a step gives back: all but how the meshes stand, which goes with them. */
+/** The part of the work that a step brings back: all but the axes that point up, which belong to the meshes. */
 function contentOf(work: Work): Omit<Work, 'up'> {
   const { meshes, demo, pairs, named, groundTruth, options } = workOf(work);
   return { meshes, demo, pairs, named, groundTruth, options };
@@ -83,7 +83,7 @@ function expectSound({ pairs, ui, meshes }: State): void {
 
 describe.each([1, 2, 3, 4, 5, 6, 7, 8])('after 150 events of seed %i', (seed) => {
   let store: Store;
-  /** The work before each step and after the last one. */
+  /** The work before each step, and after the last one. */
   let works: Omit<Work, 'up'>[];
 
   beforeEach(() => {
@@ -96,7 +96,7 @@ describe.each([1, 2, 3, 4, 5, 6, 7, 8])('after 150 events of seed %i', (seed) =>
       expectSound(store.state);
       const grown = store.state.history.past.length - past.length;
       expect(grown === 0 || grown === 1).toBe(true);
-      // A drag that goes on makes the last step another one.
+      // A drag that goes on changes the last step.
       works.splice(grown === 1 ? works.length : -1, grown === 1 ? 0 : 1, contentOf(store.state));
     }
     expect(works.length).toBeGreaterThan(40);
@@ -189,7 +189,7 @@ describe('the toast of a step that dropped something', () => {
     expect(cleared.toast?.undo).toBe(true);
     expect(after(cleared, { kind: 'point-picked', side: 0, point: 3 }).toast).toBeNull();
     expect(after(cleared, { kind: 'undo' })).toMatchObject({ toast: null, pairs: FOUR });
-    // What is no step leaves it.
+    // A change that is not a step leaves the toast.
     expect(after(cleared, { kind: 'style', style: { cones: false } }).toast).toBe(cleared.toast);
   });
 
@@ -231,7 +231,7 @@ describe('the memory of meshes', () => {
   test('is bounded: the oldest steps go first', () => {
     const store = new Store();
     store.subscribe(freeForgotten);
-    // A fifth of what the past may hold.
+    // The meshes take a fifth of what the past may hold.
     const files = Array.from({ length: 12 }, (_, index) => mesh(`${index}.off`, 1.3e6));
     for (const file of files) {
       store.dispatch({ kind: 'mesh', side: 0, file });

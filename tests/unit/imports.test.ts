@@ -1,4 +1,4 @@
-/** The page's files import each other in one direction, and its parts as docs/page.md says. */
+/** The page's files import each other without circles, and its parts in the order that docs/page.md lists. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, join, relative, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -9,7 +9,7 @@ const WWW = fileURLToPath(new URL('../../www', import.meta.url));
 
 type Graph = ReadonlyMap<string, ReadonlySet<string>>;
 
-/** The imports of every file of the page but the built core, types included. */
+/** The imports of every file of the page, except the built modules; imports of types count. */
 function imports(): Graph {
   const files = readdirSync(WWW, { recursive: true, encoding: 'utf8' }).filter(
     (file) => /\.tsx?$/.test(file) && !file.startsWith('wasm'),
@@ -23,7 +23,7 @@ function imports(): Graph {
   );
 }
 
-/** The page's parts from the list in docs/page.md, each with its line: folders, and files beside them. */
+/** The parts of the page, folders and single files, each with its line in the list of docs/page.md. */
 function parts(): ReadonlyMap<string, number> {
   const text = readFileSync(join(WWW, '../docs/page.md'), 'utf8');
   const list = /(?<=each only with what stands above it:\n\n)(?:- .*\n)+/.exec(text)?.[0] ?? '';
@@ -31,7 +31,7 @@ function parts(): ReadonlyMap<string, number> {
   return new Map(list.split('\n').flatMap((line, rank) => names(line).map((name) => [name, rank] as const)));
 }
 
-/** A way through the graph that comes back to its beginning; `null` where there is none. */
+/** A path through the graph that returns to its beginning; `null` where there is none. */
 function circle(graph: Graph): string[] | null {
   const done = new Set<string>();
   const visit = (node: string, path: readonly string[]): string[] | null => {
@@ -69,7 +69,7 @@ test('a circle is found where there is one', () => {
 
 test('files import each other in one direction', () => {
   const graph = imports();
-  // What is imported is there, so that no path was misread.
+  // Every imported file exists, so no path was misread.
   const missing = [...graph.values()].flatMap((targets) =>
     [...targets].filter((target) => !target.startsWith('wasm') && !target.endsWith('.css') && !graph.has(target)),
   );
@@ -78,7 +78,7 @@ test('files import each other in one direction', () => {
   expect(circle(graph)).toBeNull();
 });
 
-/** What a file has of others when it runs, itself included: all that it imports but types. */
+/** All files that a file loads when it runs, itself included: all imports except types. */
 function reached(file: string, seen = new Set<string>()): ReadonlySet<string> {
   if (!seen.has(file)) {
     seen.add(file);

@@ -1,4 +1,4 @@
-/** One thing at a time: tasks, runs, and when a run can start. */
+/** The job of the page, which does one thing at a time: tasks, runs, and when a run can start. */
 import { describe, expect, test } from 'vitest';
 import { canRun } from '../../www/store/readiness.ts';
 import type { Stage } from '../../www/report.ts';

@@ -1,4 +1,4 @@
-/** The work kept in the browser: reloads, new visits, several tabs, and stores that fail. */
+/** The work that is kept in the browser: reloads, new visits, several tabs, and stores that fail. */
 import { IDBFactory } from 'fake-indexeddb';
 import 'fake-indexeddb/auto';
 import { openDB } from 'idb';
@@ -15,7 +15,7 @@ import type { MeshFile, State } from '../../www/store/state.ts';
 import { Store } from '../../www/store/store.ts';
 import { DEMO, mesh, READY } from './fixtures.ts';
 
-/** The core takes every vertex up to 1000. */
+/** A core that accepts every vertex up to 1000. */
 vi.mock('../../www/wasm/page.js', () => ({
   checkLandmarks: (_: unknown, __: number, bytes: Uint8Array) => {
     const { pairs } = JSON.parse(new TextDecoder().decode(bytes)) as { pairs: unknown[][] };
@@ -25,7 +25,7 @@ vi.mock('../../www/wasm/page.js', () => ({
   },
 }));
 
-/** Longer than any test: what is written, is written because a test says so. */
+/** A delay longer than any test, so that the work is written only when a test asks for it. */
 const DELAY = 60_000;
 const CAT_AND_LION: readonly Event[] = [
   { kind: 'mesh', side: 0, file: mesh('cat.off') },
@@ -34,13 +34,13 @@ const CAT_AND_LION: readonly Event[] = [
 ];
 const pick = (point: number): Event => ({ kind: 'point-picked', side: 0, point });
 
-/** What the tabs of one browser share. */
+/** The locks that the tabs of one browser share. */
 let locks: Map<string, Tab>;
 let ids: number;
 let clock: number;
 let database: Database;
 
-/** A tab from its opening to its end. */
+/** A tab, from its opening to its end. */
 class Tab {
   readonly store = new Store();
   readonly keeper: Keeper;
@@ -49,7 +49,7 @@ class Tab {
   found: Found = { own: null, offer: null, note: null };
   isResumed = false;
 
-  /** `memory` is what the browser gives a tab again after a reload. */
+  /** `memory` is what the browser returns to a tab after a reload. */
   constructor(memory = new Map<string, string>(), around: Partial<Surroundings> = {}) {
     this.memory = memory;
     this.keeper = new Keeper(this.store, {
@@ -96,7 +96,7 @@ class Tab {
     return this;
   }
 
-  /** Each of these is a step of its own. */
+  /** Dispatches events, each as a step of its own. */
   does(...events: readonly Event[]): void {
     for (const event of events) {
       this.store.dispatch(event);
@@ -119,7 +119,7 @@ class Tab {
   }
 }
 
-/** A tab with two meshes and four pairs, in two steps, which were written. */
+/** A tab with two meshes and four pairs, made in two steps, which were written. */
 async function catAndLion(...more: readonly Event[]): Promise<Tab> {
   const tab = await new Tab().visit();
   tab.store.dispatch(...CAT_AND_LION);
@@ -139,7 +139,7 @@ async function meshNames(): Promise<string[]> {
   return all.map((bytes) => new TextDecoder().decode(bytes)).sort();
 }
 
-/** Changes a record as no page would. */
+/** Changes a record as no page would do it. */
 async function spoil(id: string, change: (record: Record<string, unknown>) => unknown): Promise<void> {
   const raw = await openDB('conemap');
   await raw.put('sessions', change((await raw.get('sessions', id)) as Record<string, unknown>));
@@ -253,7 +253,7 @@ describe('what is kept', () => {
       store.dispatch(pick(Number(name)));
     }
     const { past, files } = keptOf(store.state);
-    // Those of the page, 5, and two more.
+    // The meshes of the page, which are 5 and lion.off, and two more.
     expect([...files].map(({ name }) => name)).toEqual(['5', 'lion.off', '4', '3']);
     expect(past[0]?.work.meshes[0]?.name).toBe('3');
   });
@@ -396,7 +396,7 @@ describe('a new visit', () => {
     await first.close();
     const second = await catAndLion(pick(8));
     const third = await new Tab().visit();
-    // The second tab is open.
+    // The second tab is still open.
     expect(third.state.offer).toMatchObject({ session: 'session-1', pairs: 5 });
     await second.close();
     const fourth = await new Tab().visit();
@@ -677,7 +677,7 @@ test('a record is what its reader takes', async () => {
   const tab = await catAndLion();
   const [record] = await records();
   expect(readSession(structuredClone(record)).kind).toBe('session');
-  // Steps share what did not change, as in memory.
+  // Steps share what has not changed, as they do in memory.
   expect(record?.past.length).toBeGreaterThan(0);
   expect(tab.state.history.past.length).toBe(record?.past.length);
   expect(readSession(null)).toEqual({ kind: 'broken' });

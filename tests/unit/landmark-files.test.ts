@@ -1,4 +1,4 @@
-/** Landmark files of other programs, and meshes in several files, with the core that has been built. */
+/** Landmark files of other programs, and meshes in several files, read by the built core. */
 import { zipSync } from 'fflate';
 import { beforeAll, describe, expect, test } from 'vitest';
 import type { NamedBytes } from '../../www/files.ts';
@@ -69,7 +69,7 @@ describe('landmark files', () => {
       const state = after(open, ...openingOf([file], over, open).events);
       expect(state.pairs.map((pair) => pair.points)).toEqual(points.map((point) => [null, point]));
     }
-    // The second completes the first, and both together are one step, in whatever order they come.
+    // The second file completes the first, and both together are one step, in either order.
     const both = after(open, ...openingOf([cat, horse], null, open).events);
     expect(both.pairs.map((pair) => pair.points)).toEqual(landmarks.pairs);
     const one = after(open, ...openingOf([cat], null, open).events);
@@ -104,7 +104,7 @@ describe('landmark files', () => {
   });
 });
 
-/** A tetrahedron in two files; the name of the second needs an escape. */
+/** A tetrahedron in two files, where the name of the second must be escaped. */
 function twoFiles(): [NamedBytes, NamedBytes] {
   const { gltf, bin } = tetrahedron('tetra%20hedron.bin');
   return [text('tetra.gltf', gltf), { name: 'tetra hedron.bin', bytes: bin }];

@@ -1,4 +1,4 @@
-/** Modules that did not come are asked for under another address. */
+/** Modules that did not load are requested again at another address. */
 import { expect, test } from 'vitest';
 import { lateModule, missingModule } from '../../www/late-module.ts';
 

@@ -1,4 +1,4 @@
-/** Points that come in pairs of left and right: picks, undo, moves, locks, names, and what lies across. */
+/** Points that come in pairs of left and right: picks, undo, moves, locks, labels, and mirror images. */
 import { describe, expect, test, vi } from 'vitest';
 import { completed, Planes } from '../../www/app/left-right.ts';
 import type { Mirror } from '../../www/app/left-right.ts';
@@ -22,11 +22,11 @@ const planeOf = (of: State['meshes'][0], change: Partial<MeshPlane> = {}): MeshP
   answer: ANSWER,
   ...change,
 });
-/** Both meshes have planes, and points come in pairs. */
+/** A state in which both meshes have planes, and points come in pairs. */
 const ON: State = { ...READY, leftRight: { isOn: true, planes: [planeOf(CAT), planeOf(LION)], twins: [] } };
 const EMPTY: State = { ...ON, pairs: [], nextId: 1 };
 
-/** What lies across from a vertex: the one a hundred farther, exactly. */
+/** The mirror image of a vertex: the vertex whose number is larger by a hundred, at distance 0. */
 const across = (point: SurfacePoint | null): Across => ({ point, distance: 0, pair: null });
 const pick = (side: Side, point: number): Event => ({ kind: 'point-picked', side, point, across: across(point + 100) });
 const move = (id: number, side: Side, point: number, gesture = 1): Event => ({
@@ -78,7 +78,7 @@ describe('a pick', () => {
     const there = after(ON, { ...pick(0, 4), across: { ...across(104), pair: 3 } } as Event);
     expect(there.pairs).toHaveLength(5);
     expect(twinOf(there, 5)?.id).toBe(3);
-    // Exactly there.
+    // The mirror image lies exactly at a point that has a pair.
     expect(after(ON, { ...pick(0, 4), across: across(2) } as Event).pairs).toHaveLength(5);
   });
 
@@ -234,7 +234,7 @@ describe('planes', () => {
     expect(using(planeOf(CAT, { answer: 'awaited' }))).toBeNull();
     expect(planeInUse(after(ON, { kind: 'left-right', isOn: false }), 0)).toBeNull();
     expect(planeInUse(after(ON, { kind: 'mesh', side: 0, file: mesh('cow.off') }), 0)).toBeNull();
-    // One that comes late for a mesh that has gone is left out.
+    // An answer that comes late, for a mesh that has been replaced, is ignored.
     expect(after(ON, { kind: 'plane', side: 0, plane: planeOf(mesh('cow.off')) })).toBe(ON);
   });
 
@@ -267,7 +267,7 @@ describe('the planes of the meshes', () => {
         return Promise.resolve(JSON.stringify(answer));
       },
     } as unknown as FileReader;
-    // Pairs 1 and 2 stand across from each other.
+    // Pairs 1 and 2 are each other's mirror image.
     const mirror: Mirror = (_, point) => ({ ...across(0), pair: point === 0 ? 2 : point === 1 ? 1 : null });
     const planes = new Planes(store, reader, mirror);
     const packed = (name: string): State['meshes'][0] => ({ ...mesh(name), mesh: { packed: () => new Uint8Array() } as never });
@@ -310,7 +310,7 @@ describe('the planes of the meshes', () => {
       ['pins', null],
       ['z', null],
     ]);
-    // What was found is remembered.
+    // The plane that was found is remembered.
     planes.choose(0, 'found');
     expect([store.state.leftRight.planes[0]?.answer, wishes.length]).toEqual([null, 4]);
   });

@@ -1,4 +1,4 @@
-/** Meshes and landmark files that come one after the other. */
+/** Meshes and landmark files that are opened one after the other. */
 import { describe, expect, test } from 'vitest';
 import { baseName, landmarkFileOf } from '../../www/store/landmark-file.ts';
 import { INITIAL } from '../../www/store/state.ts';
@@ -104,7 +104,7 @@ test('what is known of a mesh goes with it: suggestions, camera, which way is up
     [null, [1, 2, 3]],
     ['y', '-x'],
   ]);
-  // Other shapes: the source begins as it is.
+  // The shapes are exchanged, so the source is shown in its own shape again.
   const style = { ...before.ui.style, morph: 0 };
   expect(swapped.ui.style).toEqual(style);
   const undone = after(swapped, { kind: 'undo' });
@@ -121,7 +121,7 @@ test('a mesh that comes back stands as it stood last', () => {
   );
   const back = after(state, { kind: 'undo' });
   expect(back.up).toEqual(['y', 'z']);
-  // The step before was made while it stood otherwise.
+  // The step before was made while another axis of the mesh pointed up.
   expect(after(back, { kind: 'undo' }).up).toEqual(['y', 'z']);
 });
 

@@ -1,4 +1,4 @@
-/** Map files that are opened on the page, with the core itself in place of its worker. */
+/** Map files that are opened on the page, with the core itself in place of the worker. */
 import { beforeAll, beforeEach, describe, expect, test, vi } from 'vitest';
 import { Maps } from '../../www/app/maps.ts';
 import { openFiles } from '../../www/app/open.ts';
@@ -91,7 +91,7 @@ async function drop(...files: readonly NamedBytes[]): Promise<void> {
 
 type Numbers = Uint8Array | Uint32Array | Float32Array | Float64Array;
 
-/** Whether all bytes are the same; the test library takes seconds for that. */
+/** Whether all bytes are the same; the test library would take seconds for this. */
 function areSame(a: Numbers | null | undefined, b: Numbers): boolean {
   const bytes = ({ buffer, byteOffset, byteLength }: Numbers): Buffer => Buffer.from(buffer, byteOffset, byteLength);
   return a !== null && a !== undefined && bytes(a).equals(bytes(b));
@@ -108,7 +108,7 @@ describe('a map file', () => {
     expect(pairs).toHaveLength(made.report.base_domain.vertices);
     expect([options.ownCones, job.kind, isCurrent(store.state)]).toEqual([0, 'done', true]);
     expect(result?.opened).toEqual({ name: 'ball.conemap', isMirrored: false });
-    // The run's report with all its fields, its measures made anew.
+    // The report is that of the run with all its fields, but with new measurements.
     expect(result?.report.certificate).toEqual(made.report.certificate);
     expect(Object.keys(result?.report ?? {}).toSorted()).toEqual(Object.keys(made.report).toSorted());
     expect(result?.report.distortion.energy).toBeCloseTo(made.report.distortion.energy, 9);
@@ -166,7 +166,7 @@ describe('a map file', () => {
   test('waits for its meshes, which find their sides, and opens by itself', async () => {
     await drop(map);
     expect([store.state.awaited?.name, store.state.error]).toEqual(['ball.conemap', null]);
-    // The target comes first, to an empty page.
+    // The target is opened first, on an empty page.
     await drop(target);
     expect(store.state.meshes.map((mesh) => mesh?.name)).toEqual([undefined, 'body.obj']);
     expect(store.state.result).toBeNull();
@@ -214,7 +214,7 @@ describe('a map file', () => {
       [half, /^half\.conemap: The map file, section ".*": it does not lie within the file\.$/],
       [newer, /^damaged\.conemap: The map file has version 2313, .* use a newer program\.$/],
       [damaged((bytes) => bytes.fill(0x7b, 20, 40)), /^damaged\.conemap: The map file's header/],
-      // Sections follow the header: places and pieces.
+      // The sections after the header hold places and pieces.
       [damaged((bytes) => bytes.fill(0, bytes.length - 60_000)), /^damaged\.conemap: The map file/],
     ] as const) {
       expect(isMapFile(file)).toBe(true);
@@ -239,7 +239,7 @@ test('the files of a run are made of its map file, too', () => {
       .map((line) => line.split(',').map(Number));
   const [found, wanted] = [table(saved.file('vertex-images.csv')), table(files.csv)];
   expect(found).toHaveLength(wanted.length);
-  // The last three numbers are the place in space: on an edge either face may be named.
+  // The last three numbers are the position in space; on an edge either face may be named.
   found.forEach((row, index) => {
     row.slice(-3).forEach((x, axis) => {
       expect(x).toBeCloseTo(wanted[index]?.at(axis - 3) ?? NaN, 9);

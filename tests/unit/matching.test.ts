@@ -1,4 +1,4 @@
-/** Landmarks that the program finds: what becomes of the pairs on the page, and what ends a search. */
+/** The search for landmarks: what happens to the pairs on the page, and what ends a search. */
 import { beforeEach, describe, expect, test, vi } from 'vitest';
 import { Finder } from '../../www/app/find.ts';
 import type { MatchMessage, MatchRequest } from '../../www/compute/match-messages.ts';
@@ -19,7 +19,7 @@ const FOUND: Event = { kind: 'search-done', report: MATCH, pictures: PICTURES };
 const REFUSED: Event = { kind: 'error', sentence: 'marks.json: There is no pair.' };
 const TWO: State = { ...READY, pairs: FOUR.slice(0, 2) };
 const take = (number: number): Event => ({ kind: 'candidate-taken', candidate: number });
-/** An answer with these candidates of which the first is sure. */
+/** A sure answer with these candidates. */
 const sure = (...candidates: MatchReport['candidates']): Event => ({
   kind: 'search-done',
   report: { verdict: { kind: 'sure', sentence: 'Sure.', question: null, places: [] }, candidates },
@@ -67,7 +67,7 @@ describe('found pairs', () => {
     const found = after(TWO, SEARCH, REFUSED, FOUND);
     expect(found.pairs).toHaveLength(4);
     expect(found.error).toBe('marks.json: There is no pair.');
-    // Whoever takes another answer has read it.
+    // A user who takes another answer has read the error.
     expect(after(found, { kind: 'undo' }, take(0)).error).toBeNull();
   });
 
@@ -83,7 +83,7 @@ describe('found pairs', () => {
     expect(found.suggestions[0].map(({ point, letter }) => [letter, point])).toEqual([['A', 7], ['B', 8], ['C', 9]]);
     expect(found.suggestions[1]).toEqual([]);
     expect(takenCandidate(found)).toBeNull();
-    // The best of the bad answers can be taken all the same.
+    // The best of the bad answers can still be taken.
     expect(takenCandidate(after(found, take(0)))).toBe(0);
   });
 
@@ -123,7 +123,7 @@ describe('an answer', () => {
     const back = after(other, take(0));
     expect(pointsOf(back)).toEqual(pointsOf(found));
     expect(back.toast?.sentence).toBe('2 landmark pairs placed as in the chosen answer. 1 other pair removed.');
-    // The map of the first answer is current again.
+    // The map of the first answer is up to date again.
     expect(staleness({ ...back, result: DONE.result && { ...DONE.result, inputs: found } })).toBeNull();
   });
 

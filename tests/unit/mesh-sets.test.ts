@@ -1,4 +1,4 @@
-/** Which picture stays with which mesh. */
+/** Which picture belongs to which mesh. */
 import { beforeAll, describe, expect, test } from 'vitest';
 import { gathered } from '../../www/mesh-sets.ts';
 import { startPageModule } from './modules.ts';
@@ -11,13 +11,13 @@ function file(name: string, content = name): { readonly name: string; readonly b
   return { name, bytes: new TextEncoder().encode(content) };
 }
 
-/** The names of the meshes with their pictures', which are their contents. */
+/** The names of the meshes with the names of their pictures, which are the pictures' contents. */
 function sets(...files: readonly ReturnType<typeof file>[]): Record<string, string | null> {
   const entries = gathered(files).map(({ name, picture }) => [name, picture === undefined ? null : new TextDecoder().decode(picture)] as const);
   return Object.fromEntries(entries);
 }
 
-/** Bytes that begin as a PNG file. */
+/** Bytes that begin like a PNG file. */
 function png(name: string): { readonly name: string; readonly bytes: Uint8Array } {
   return { name, bytes: Uint8Array.from([0x89, ...new TextEncoder().encode(`PNG ${name}`)]) };
 }
@@ -30,7 +30,7 @@ describe('a picture stays with its mesh', () => {
     expect(found).toContain('PNG a/textures/coat.png');
     expect(found).toContain('PNG a/eye.png');
     expect(found).not.toContain('PNG a/cat.png');
-    // Materials whose pictures are missing give way to one that is called like the mesh.
+    // Where the materials' pictures are missing, the picture with the mesh's name is taken.
     expect(sets(mesh, materials, file('cat.png'))).toEqual({ 'cat.obj': 'cat.png' });
     expect(sets(mesh, materials)['cat.obj']).toContain('textures/coat.png');
   });

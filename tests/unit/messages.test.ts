@@ -1,4 +1,4 @@
-/** Sentences of failures, as the page says them. */
+/** Sentences about failures. */
 import { expect, test } from 'vitest';
 import { failureSentence } from '../../www/messages.ts';
 

@@ -1,4 +1,4 @@
-/** The base domain as a picture: laid down in the right order from everywhere, turned as the views are, and asked. */
+/** The base domain as a picture: drawn in the right order from all directions, turned with the views, and asked about its parts. */
 import { describe, expect, test } from 'vitest';
 import type { BaseOutput, BaseShape } from '../../www/compute/messages.ts';
 import type { Axes, Vector } from '../../www/method/axes.ts';
@@ -18,7 +18,7 @@ function vector(): Vector {
   return [random.unit() * 2 - 1, random.unit() * 2 - 1, random.unit() * 2 - 1];
 }
 
-/** Triangles anywhere in a box, so that many of them cross. */
+/** Random triangles in a box, many of which cross. */
 function crossing(count: number): readonly Triangle[] {
   return Array.from({ length: count }, (_, k) => ({ corners: [vector(), vector(), vector()] as const, sides: [3 * k, 3 * k + 1, 3 * k + 2] as const }));
 }
@@ -42,7 +42,7 @@ function fail(): never {
   throw new Error('nothing there');
 }
 
-/** How far a line in a direction has come where it meets a triangle; `null` where it passes by. */
+/** The distance along a ray at which it meets a triangle; `null` where it misses the triangle. */
 function meets([a, b, c]: readonly [Vector, Vector, Vector], from: Vector, along: Vector): number | null {
   const normal = cross(minus(b, a), minus(c, a));
   const way = dot(minus(a, from), normal) / dot(along, normal);
@@ -73,7 +73,7 @@ describe('the painter', () => {
         const hits = triangles.map(({ corners }, face) => ({ face, way: meets(corners, from, back) })).filter(({ way }) => way !== null);
         const nearest = hits.sort((a, b) => (b.way ?? 0) - (a.way ?? 0));
         const [first, second] = nearest;
-        // Two that are met at nearly one place may be told either way.
+        // Two triangles that are met at nearly the same place may come in either order.
         if (first === undefined || Math.abs((first.way ?? 0) - (second?.way ?? Infinity)) < 1e-3) {
           continue;
         }
@@ -166,7 +166,7 @@ describe('the picture', () => {
   };
 
   test('hides the corner behind the triangle that faces the viewer', () => {
-    // From opposite corner 0 the triangle 1 3 2 covers all.
+    // Seen from opposite corner 0, the triangle 1 3 2 covers everything.
     const picture = pictureOf(solid, towards([-1, -1, -1]));
     expect(picture.balls.map(({ cone, isHidden }) => [cone, isHidden]).sort()).toEqual([[0, true], [1, false], [2, false], [3, false]]);
     expect(picture.facets.at(-1)?.face).toBe(3);

@@ -1,4 +1,4 @@
-/** The wasm modules as they were built, for tests that ask them. */
+/** The built wasm modules, for tests that use them. */
 import { readFileSync } from 'node:fs';
 import { initSync as initCore } from '../../www/wasm/core.js';
 import { initSync as initPage } from '../../www/wasm/page.js';
@@ -17,7 +17,7 @@ export function startCoreModule(): void {
   initCore({ module: module('core') });
 }
 
-/** Starts both. */
+/** Starts both modules. */
 export function startModules(): void {
   startPageModule();
   startCoreModule();

@@ -1,4 +1,4 @@
-/** When the way to the target's shape is asked for, and what becomes of the answer. */
+/** When the way to the target's shape is computed, and what happens to the answer. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { bendMorphs } from '../../www/app/morph.ts';
 import type { RunOutput } from '../../www/compute/messages.ts';
@@ -39,7 +39,7 @@ async function morph(share: number): Promise<void> {
   await settled();
 }
 
-/** What the last worker was asked, and how it answers. */
+/** The requests to the last worker. */
 function asked(): readonly SavedRequest[] {
   return (FakeWorker.made.at(-1)?.posted ?? []) as readonly SavedRequest[];
 }
@@ -135,7 +135,7 @@ test('triangles that went straight are brought anew, and a new renderer is told 
   picture.morph(viewer, 0.5);
   expect(told).toEqual(['clearResult', 'setWay', 'setOverlay', 'setMorph']);
   told.length = 0;
-  // Another map goes straight.
+  // The points of another map move straight.
   picture.take(viewer, RESULT, null);
   picture.morph(viewer, 0.5);
   expect(told).toEqual(['clearResult', 'setOverlay', 'setMorph']);

@@ -1,4 +1,4 @@
-/** What is kept for visits without a network, and what the page may load and connect to. */
+/** The files that are kept for visits without a network, and what the page may load and connect to. */
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -94,7 +94,7 @@ test('the manifest names icons that are there, in the size that it says', () => 
     readonly scope: string;
     readonly icons: readonly { readonly src: string; readonly sizes: string; readonly type: string }[];
   };
-  // Relative, so that the page installs from any folder.
+  // The paths are relative, so that the page can be installed from any folder.
   expect([manifest.start_url, manifest.scope]).toEqual(['./', './']);
   for (const { src, sizes, type } of manifest.icons) {
     expect(src).toMatch(/^\.\//);

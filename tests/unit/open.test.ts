@@ -1,4 +1,4 @@
-/** Demos that are opened, with the core itself. */
+/** Demos that are opened with the core itself. */
 import { beforeAll, beforeEach, expect, test, vi } from 'vitest';
 import { openDemo } from '../../www/app/open.ts';
 import type { Demo } from '../../www/store/state.ts';

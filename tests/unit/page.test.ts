@@ -1,4 +1,4 @@
-/** What the page's parts derive from the state: steps, the fit of pairs, what a browser remembers. */
+/** What the page's parts derive from the state: the steps, the fit of pairs, and what a browser remembers. */
 import { describe, expect, test } from 'vitest';
 import { fitsOf } from '../../www/panels/fits.ts';
 import { documentName, meshName } from '../../www/panels/names.ts';

@@ -1,4 +1,4 @@
-/** Picks, half pairs and the order in which they are completed, moves, locks, numbers: over several events. */
+/** Sequences of events: picks, half pairs and the order in which they are completed, moves, locks, numbers. */
 import { describe, expect, test } from 'vitest';
 import type { Pair, SurfacePoint } from '../../www/landmarks.ts';
 import type { Event } from '../../www/store/events.ts';
@@ -43,7 +43,7 @@ describe('a pick', () => {
     const completed = after(three, pick(1, 15));
     expect(completed.pairs[1]).toEqual(pair(2, 5, 15));
     expect(turn(completed)).toEqual([1, 1]);
-    // A whole pair that is selected is in nobody's way.
+    // A selected pair with both points does not take the pick.
     expect(after(three, pick(1, 15), select(2), pick(1, 14)).pairs[0]).toEqual(pair(1, 4, 14));
   });
 
@@ -61,7 +61,7 @@ describe('a pick', () => {
     const state = after(READY, pick(1, 12));
     expect(state.error).toMatch(/target.*pair 3/);
     expect({ ...state, error: null }).toEqual(READY);
-    // The same number is another point on the other mesh.
+    // The same vertex number is another point on the other mesh.
     expect(after(READY, pick(0, 12)).error).toBeNull();
   });
 

@@ -1,4 +1,4 @@
-/** The planes that the core tells of a mesh. */
+/** The mirror planes that the core finds for a mesh. */
 import { beforeAll, expect, test } from 'vitest';
 import type { PlaneAnswer } from '../../www/store/left-right.ts';
 import type { MeshFile } from '../../www/store/work.ts';

@@ -1,4 +1,6 @@
-/** The flat metrics in the plane: all of a mesh, cut where the core cuts it, with patches, lines and cones where they belong. */
+/**
+ * The flat metrics in the plane: each mesh is complete, cut where the core cuts it, with its patches, lines and cones at the right places.
+ */
 import { beforeAll, describe, expect, test } from 'vitest';
 import type { BaseOutput } from '../../www/compute/messages.ts';
 import { viewBuffers } from '../../www/compute/view-buffers.ts';
@@ -59,7 +61,7 @@ beforeAll(() => {
   output = runMap(files[0], files[1], landmarks, '{}', LISTENER);
   base = viewBuffers(output).base ?? fail();
   planes = flatPlanes(files[0], files[1], landmarks, output.cones(), LISTENER);
-  // A map is made first, maybe on a busy machine.
+  // A map is made first, possibly on a busy machine.
 }, 120_000);
 
 describe('a mesh in the plane', () => {
@@ -84,7 +86,7 @@ describe('a mesh in the plane', () => {
       expect(sheet.partAt(middle, 0, 1)).toEqual({ kind: 'face', index: patch });
       expect(sheet.partAt({ x: sheet.box[0] - 1, y: 0 }, 0, count)).toBeNull();
       expect(sheet.growth.rings[1]).toBe(1);
-      // The patch's first side runs to the right.
+      // The first side of the patch points to the right.
       const line = sheet.borders.filter(({ side }) => side === base.sides[3 * patch]);
       expect(line.length).toBeGreaterThan(0);
       const from = line[0] ?? fail();
@@ -106,7 +108,7 @@ describe('a mesh in the plane', () => {
       expect(Math.min(...ends.map((end) => Math.hypot(end.x - at.x, end.y - at.y)))).toBeLessThan(1e-6);
     }
     expect(new Set(sheet.cones.map(({ cone }) => cone)).size).toBe(sheet.mesh.landmarks.length);
-    // Until both its triangles are there a cut is none.
+    // A cut appears only once both its triangles are placed.
     expect(sheet.cuts.every(({ when }) => when > 1)).toBe(true);
   });
 
@@ -157,7 +159,7 @@ test('a simplification is carried to the other mesh, and every choice ends at th
     expect([...found.counts(1)]).toEqual([...counts]);
     expect(counts.at(-1)).toBe(2 * output.cones().length - 4);
     expect(found.positions(0).length).toBe(found.positions(1).length);
-    // The landmarks that are left lie on both meshes at their own places.
+    // The landmarks that remain are at their own positions on both meshes.
     const last = new Set(found.triangles(0).slice(-3 * (counts.at(-1) ?? 0)));
     for (const side of [0, 1] as const) {
       const cones = base.shapes[side].cones;

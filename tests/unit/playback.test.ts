@@ -1,10 +1,10 @@
-/** The way to the target's shape and back: its times, and how often the views hear of it. */
+/** The way to the target's shape and back: its times, and how often the views are told. */
 import { expect, test, vi } from 'vitest';
 import { play, shareAt, timeOf } from '../../www/panels/playback.ts';
 
 const FRAME = 1000 / 60;
 
-/** A screen that shows a frame when it is told to; what it returns is how many are asked for. */
+/** A screen that shows a frame when it is told to; `asked` is the number of frames that are requested. */
 function screen(): { show: (now: number) => void; asked: () => number } {
   let next = 1;
   const callbacks = new Map<number, FrameRequestCallback>();
@@ -27,7 +27,7 @@ function screen(): { show: (now: number) => void; asked: () => number } {
   };
 }
 
-/** All that is told from a share on, until it ends. */
+/** All calls of the listener from a share on, until the playback ends. */
 function played(from: number): { shares: number[]; ended: number; frames: number } {
   const frames = screen();
   const shares: number[] = [];
@@ -56,7 +56,7 @@ test('it goes there and back without a jump, and ends', () => {
   expect(up).toEqual([...up].sort((a, b) => a - b));
   expect(down).toEqual([...down].sort((a, b) => b - a));
   expect(Math.max(...shares.map((share, index) => Math.abs(share - (shares[index - 1] ?? 0))))).toBeLessThan(0.03);
-  // While the target's shape stays nothing is told, so that no frame is drawn.
+  // While the target's shape rests the listener is not called, so that no frame is drawn.
   expect(shares.filter((share, index) => share === shares[index - 1])).toEqual([]);
   expect(shares.length).toBeLessThan(frames - 20);
 });
@@ -69,7 +69,7 @@ test('it goes on from where the slider is', () => {
     expect(shares).toContain(1);
     expect(ended).toBe(1);
   }
-  // From the target's shape back at once.
+  // A playback that begins at the target's shape goes back at once.
   const back = played(1);
   expect(Math.max(...back.shares)).toBeLessThan(1);
   expect(back.ended).toBe(1);

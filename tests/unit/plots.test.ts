@@ -1,4 +1,4 @@
-/** Plots: what they show of a report and of a map's pieces, and the files that they become. */
+/** Plots: what they show of a report and of a map's pieces, and their files. */
 import { beforeAll, describe, expect, test } from 'vitest';
 import type { Chart } from '../../www/plots/chart.ts';
 import { evenMarks, indexAt, logMarks, markText, reading, shareOf } from '../../www/plots/chart.ts';
@@ -47,7 +47,7 @@ describe('the plot of the residuals', () => {
   test('has all steps of both flows and of those before', () => {
     expect(chart?.curves.map(({ name }) => name)).toEqual(['Source', 'Target', 'Target before']);
     expect(chart?.at).toEqual([0, 1, 2, 3, 4]);
-    // A residual of 0 has no logarithm; the shorter flow ends.
+    // A residual of 0 has no logarithm, and the shorter flow ends early.
     expect(chart?.curves[0]?.values).toEqual([1, 1e-2, 1e-7, null, null]);
     expect(chart?.curves[1]?.values).toEqual([0.5, 1e-9, null, null, null]);
     expect(chart?.y.range).toEqual([1e-9, 10]);
@@ -73,7 +73,7 @@ describe('a linear map', () => {
     expect(stretched.area).toBeCloseTo(2, 12);
     // A shear by t: s1² + s2² = 2 + t², s1 s2 = 1.
     expect(measure(from, { length: 1, along: 0.5, height: 1 }).density).toBeCloseTo((2 + 0.25) / 2, 12);
-    // A rotation of the triangle's corners changes nothing.
+    // Renaming the corners of the triangles cyclically changes nothing.
     expect(measure({ length: 1, along: 0.5, height: 2 }, { length: 2, along: 1, height: 4 }).angle).toBeCloseTo(1, 12);
   });
 });
@@ -167,7 +167,7 @@ describe('the files of a plot', () => {
     const svg = chartSvg(CHART);
     expect(svg).toContain('A &#38; B &#60;c&#62;');
     expect(svg).not.toMatch(/style=|<script/);
-    // The gap ends the curve: two pieces of one point each, and one of three.
+    // The gap interrupts the curve: there are two pieces of one point each, and one of three.
     const paths = [...svg.matchAll(/<path d="(M[^"]*)" fill="none" stroke="#(?:0b678a|8a5300)"/g)].map(([, d]) => d);
     expect(paths).toEqual(['M76.00 48.00', 'M704.00 380.00', 'M76.00 214.00L390.00 214.00L704.00 214.00']);
     expect([...svg.matchAll(/<circle/g)]).toHaveLength(5);

@@ -1,4 +1,4 @@
-/** Places that the map proposes for half pairs: when there is one, what takes it and what drops it. */
+/** Places that the map proposes for half pairs: when there is one, and what accepts and drops it. */
 import { describe, expect, test, vi } from 'vitest';
 import { listenForHalves } from '../../www/app/propose.ts';
 import type { Side, SurfacePoint } from '../../www/landmarks.ts';
@@ -13,7 +13,7 @@ const pick = (side: Side, point: SurfacePoint): Event => ({ kind: 'point-picked'
 const ACCEPT: Event = { kind: 'proposal-accepted' };
 const PROPOSAL: Proposal = { id: 5, of: 7, side: 1, point: { face: 3, barycentric: [0.500_01, 0.249_96, 0.250_03] } };
 const ROUNDED: SurfacePoint = { face: 3, barycentric: [0.5, 0.25, 0.25] };
-/** A map is there, a point was clicked on the source, and the map has proposed its image. */
+/** A state with a map, where a point was clicked on the source and the map has proposed its image. */
 const OFFERED = after(DONE, pick(0, 7), { kind: 'proposed', proposal: PROPOSAL });
 
 describe('a proposal', () => {
@@ -55,7 +55,7 @@ describe('a proposal', () => {
     expect(proposed(two)).toBe(PROPOSAL);
     const other = after(two, { kind: 'pair-selected', id: 6 });
     expect([proposed(other), after(other, ACCEPT)]).toEqual([null, other]);
-    // The other half has its turn once the first is whole.
+    // The other half pair gets its turn once the first one is complete.
     expect(questionOf(after(two, ACCEPT))).toMatchObject({ id: 6, point: 9 });
   });
 
@@ -74,7 +74,7 @@ describe('a proposal', () => {
   });
 });
 
-/** A page with a map, and what its views are asked. */
+/** A page with a map, and the questions to its views. */
 function page(imageOf: (side: Side, point: SurfacePoint) => SurfacePoint | null): {
   store: Store;
   imageOf: ReturnType<typeof vi.fn>;
@@ -108,7 +108,7 @@ describe('a half pair', () => {
     const proposal = proposed(begun);
     expect(proposal).toEqual({ id: 1, of: 7, side: 1, point: 107 });
     expect(imageOf).toHaveBeenCalledExactlyOnceWith(0, 7);
-    // While the point is dragged the answer follows, and no camera turns.
+    // While the point is dragged the proposal follows, and no camera turns.
     const moved = await act({ kind: 'point-moved', id: 1, side: 0, point: 8, gesture: 1 });
     expect(proposed(moved)).toMatchObject({ of: 8, point: 108 });
     expect(shown).toEqual([proposal]);

@@ -1,4 +1,4 @@
-/** Random numbers with a seed, so that a test that fails fails again. */
+/** Random numbers from a seed, so that a test that fails will fail again. */
 
 /** Marsaglia's xorshift with 32 bits. */
 export class Random {
@@ -9,7 +9,7 @@ export class Random {
     this.#state = seed;
   }
 
-  /** From 0 to 2^32 - 1. */
+  /** A random integer from 0 to 2^32 - 1. */
   #next(): number {
     this.#state ^= this.#state << 13;
     this.#state ^= this.#state >>> 17;
@@ -18,17 +18,17 @@ export class Random {
     return this.#state;
   }
 
-  /** From 0 to less than 1. */
+  /** A random number from 0 to less than 1. */
   unit(): number {
     return this.#next() / 2 ** 32;
   }
 
-  /** A whole number from 0 to less than `bound`. */
+  /** A random integer from 0 to less than `bound`. */
   below(bound: number): number {
     return Math.floor(this.unit() * bound);
   }
 
-  /** One of these. */
+  /** A random one of these choices. */
   of<T>(choices: readonly T[]): T {
     return choices[this.below(choices.length)] as T;
   }

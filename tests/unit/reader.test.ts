@@ -1,4 +1,4 @@
-/** The page's reader with workers that only listen. */
+/** The page's reader, with workers that only listen. */
 import { beforeEach, expect, test, vi } from 'vitest';
 import type { Question, ReaderAnswer, ReaderRequest } from '../../www/reading/messages.ts';
 import { AskedWorker, ReaderBroken } from '../../www/reading/asked-worker.ts';
@@ -22,7 +22,7 @@ beforeEach(() => {
   reader.use(() => Promise.resolve(CORE));
 });
 
-/** The page's reader, with both modules there. */
+/** The page's reader, with both modules loaded. */
 function pageReader(): Reader {
   const both = new Reader();
   both.use(PAGE, () => Promise.resolve(CORE));
@@ -110,7 +110,7 @@ test('what is left ends the worker, which hears nothing while it reads, and noth
   await expect(left).rejects.toThrow('left');
   expect(first?.ended).toBe(true);
   expect(kinds(last())).toEqual(['sort']);
-  // What the first one had on its way comes to nobody.
+  // The answer of the first worker, which was ended, is ignored.
   first?.says({ kind: 'answer', id: 1, memory: FEW, answer: [file('x') as never] });
   last().says({ kind: 'answer', id: idOf(last(), 0), memory: FEW, answer: [] });
   expect(await kept).toEqual([]);

@@ -1,4 +1,4 @@
-/** Files that are read by the tests' own modules: what the page has workers for. */
+/** Reads files with the tests' own modules; the page does this in workers. */
 import { examinedOf, meshFile as takenMesh, mirroredEvent, mirrorQuestion } from '../../www/files.ts';
 import type { Pair, Side } from '../../www/landmarks.ts';
 import type { NamedBytes } from '../../www/named-file.ts';
@@ -21,7 +21,7 @@ function answer<Kind extends Question['kind']>(question: Extract<Question, { rea
   return given as Answers[Kind];
 }
 
-/** Answers in the next turn. */
+/** A reader that answers in the next turn. */
 export const READER: FileReader = {
   ask: async (question) => {
     await Promise.resolve();
@@ -29,7 +29,7 @@ export const READER: FileReader = {
   },
 };
 
-/** A file with what becomes of it as a mesh. */
+/** A file with the result of reading it as a mesh. */
 export function readFile(file: NamedBytes, allowed: Allowed = {}): ReadFile {
   return { file, reading: meshReading(file, allowed) };
 }
@@ -39,29 +39,29 @@ export function meshFile(file: NamedBytes, allowed: Allowed = {}): MeshFile {
   return takenMesh(readFile(file, allowed));
 }
 
-/** What files mean. Throws `FileRefused`. */
+/** What opening files does to the page. Throws `FileRefused`. */
 export function openingOf(files: readonly NamedBytes[], over: Side | null, state: State): Opening {
   const sorted = answer({ kind: 'sort', files });
   const readings = opening.meshesAmong(sorted).map((file) => meshReading(file, {}));
   return opening.openingOf(opening.arrivalsOf(sorted, readings), over, state);
 }
 
-/** What meshes of known sides mean. Throws `FileRefused`. */
+/** The events of meshes whose sides are known. Throws `FileRefused`. */
 export function eventsOfSides([source, target]: readonly [NamedBytes | null, NamedBytes | null], pairs: NamedBytes | null, state: State): Event[] {
   return opening.eventsOfSides([source && readFile(source), target && readFile(target)], pairs, state);
 }
 
-/** What the offered repair of a refused mesh means. */
+/** The events of the repair that was offered for a refused mesh. */
 export function repairedEvents(mesh: RefusedMesh, state: State): Event[] {
   return opening.repairedEvents(mesh, meshReading(mesh.file, allowedBy(mesh)), state);
 }
 
-/** What was wrong with a mesh that was repaired. */
+/** The defects that a mesh had before it was repaired. */
 export function examinedRepair({ bytes, mesh }: MeshFile): Examined {
   return examinedOf(answer({ kind: 'repairs', bytes, mesh: mesh.packed() }));
 }
 
-/** The event of a target's mirror image. */
+/** The event that replaces a target by its mirror image. */
 export function mirroredTarget(target: MeshFile, pairs: readonly Pair[]): Event {
   return mirroredEvent(answer(mirrorQuestion(target, pairs)), pairs);
 }

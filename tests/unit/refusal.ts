@@ -1,4 +1,4 @@
-/** What the page says of files that it refuses. */
+/** The sentences with which the page refuses files. */
 import type { NamedBytes } from '../../www/files.ts';
 import { FileRefused } from '../../www/files.ts';
 import type { Side } from '../../www/landmarks.ts';

@@ -1,4 +1,4 @@
-/** Meshes that are refused, what is offered, and what comes of it. */
+/** Refused meshes, the repairs that are offered, and their results. */
 import { beforeAll, expect, test, vi } from 'vitest';
 import { freeExamined } from '../../www/app/repair-mesh.ts';
 import type { NamedBytes } from '../../www/files.ts';
@@ -21,7 +21,7 @@ beforeAll(() => {
   startModules();
 });
 
-/** Vertices and faces, numbered from 0. */
+/** Vertices and faces; the faces number the vertices from 0. */
 interface Shape {
   readonly vertices: readonly (readonly number[])[];
   readonly faces: readonly (readonly number[])[];
@@ -77,7 +77,7 @@ function refusedIn(state: State, place = 0): RefusedMesh {
   return mesh;
 }
 
-/** The button under a refused mesh. */
+/** The label of the button that repairs a refused mesh; `null` for none. */
 function command({ offer }: RefusedMesh): string | null {
   return offer === null ? null : repairCommand(offer);
 }
@@ -102,7 +102,7 @@ test('a good mesh that comes with a bad one stays, and the bad one waits with it
   const back = after(repaired, { kind: 'undo' });
   expect(back.meshes.map((file) => file?.name ?? null)).toEqual(['corner.obj', null]);
   expect(after(back, { kind: 'redo' }).meshes[1]).toBe(repaired.meshes[1]);
-  // What was accepted once is read again.
+  // A repair that was accepted once is made again when the mesh is read.
   expect(meshFile(RING, ALL_ALLOWED).faceCount).toBe(repaired.meshes[1]?.faceCount);
 });
 
@@ -123,7 +123,7 @@ test('one repair may lead to the next, and allows no more than was asked for', (
 
 test('landmarks wait for the last of the meshes that they came with', () => {
   const pairs = landmarks([[0, 0], [1, 10], [2, 20], [3, 30]], { source: 'corner.obj', target: 'ring.obj' });
-  // On the mesh that is there before they would not fit.
+  // The pairs would not fit the mesh that was there before.
   const given = after(READY, { kind: 'pairs-cleared' });
   const state = after(given, ...openingOf([GOOD, RING, pairs], null, given).events);
   expect(state.error).toBeNull();

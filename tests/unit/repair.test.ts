@@ -1,4 +1,4 @@
-/** What a finding asks for is done. */
+/** The repairs that findings suggest. */
 import { beforeEach, expect, test, vi } from 'vitest';
 import { repair } from '../../www/app/repair.ts';
 import { Runner } from '../../www/app/run.ts';

@@ -1,8 +1,8 @@
-/** A ball and a rod of the same triangles, all of them long on the rod. */
+/** A ball, and a rod with the same connectivity, whose triangles are all long. */
 
 type Place = readonly [number, number, number];
 
-/** The regular tetrahedron, each triangle split into 256 and blown up to the unit ball; the first vertices are its own. */
+/** The regular tetrahedron, each triangle split into 256 and projected to the unit sphere; its own vertices are the first. */
 function ball(): { readonly places: readonly Place[]; readonly faces: readonly Place[] } {
   const unit = ([x, y, z]: Place): Place => {
     const length = Math.hypot(x, y, z);
@@ -32,12 +32,12 @@ function ball(): { readonly places: readonly Place[]; readonly faces: readonly P
   return { places, faces };
 }
 
-/** The ball, drawn out along the first axis, as OBJ. */
+/** The ball stretched along the first axis, as OBJ. */
 export function rod(stretch: number): string {
   const { places, faces } = ball();
   const vertices = places.map(([x, y, z]) => `v ${stretch * x} ${y} ${z}`);
   return [...vertices, ...faces.map(([a, b, c]) => `f ${a + 1} ${b + 1} ${c + 1}`)].join('\n');
 }
 
-/** The tetrahedron's corners on two of them. */
+/** A landmark file that pairs the tetrahedron's corners on two such meshes. */
 export const CORNERS = JSON.stringify({ pairs: [0, 1, 2, 3].map((v) => [v, v]) });

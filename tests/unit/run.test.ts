@@ -1,4 +1,4 @@
-/** The run of the page with a worker that only listens. */
+/** The run of the page, with a worker that only listens. */
 import { beforeEach, expect, test, vi } from 'vitest';
 import { Runner } from '../../www/app/run.ts';
 import type { RunRequest, WarmUpRequest, WorkerMessage } from '../../www/compute/messages.ts';
@@ -16,7 +16,7 @@ const CORE = {} as WebAssembly.Module;
 let store: Store;
 let runner: Runner;
 
-/** The worker of the run. */
+/** Starts the run; returns its worker. */
 function started(): FakeWorker {
   runner.start();
   const worker = FakeWorker.made.at(-1);

@@ -1,4 +1,4 @@
-/** The service worker as the build writes it, in a browser of paper. */
+/** The service worker as the build writes it, with a simulated browser. */
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -40,13 +40,13 @@ class Caches {
 interface Started {
   readonly install: () => Promise<unknown>;
   readonly activate: () => Promise<unknown>;
-  /** What is answered; `undefined` where it is left to the browser. */
+  /** The answer to a request; `undefined` where the worker leaves it to the browser. */
   readonly ask: (path: string, mode?: RequestMode) => Promise<string> | undefined;
   readonly tell: (data: unknown) => void;
   readonly counts: { claimed: number; skipped: number };
 }
 
-/** Runs the worker's code with these caches and this net. */
+/** Runs the worker's code with these caches and this network. */
 function started(code: string, caches: Caches, fetch: (url: string, options?: RequestInit) => Promise<Response>): Started {
   const listeners = new Map<string, (event: unknown) => void>();
   const counts = { claimed: 0, skipped: 0 };
@@ -92,7 +92,7 @@ const offline = async (): Promise<Response> => Promise.reject(new TypeError('no 
 describe('the service worker', { timeout: 60_000 }, () => {
   let folder = '';
   let code = '';
-  /** A net that gives the built files and notes what it was asked. */
+  /** A network that gives the built files and records the requests. */
   const asked: string[] = [];
   const net = async (url: string, options?: RequestInit): Promise<Response> => {
     const path = url.slice(SCOPE.length);
@@ -165,7 +165,7 @@ describe('the service worker', { timeout: 60_000 }, () => {
     expect([...caches.held.keys()]).toEqual([cacheName(SCOPE, 'before'), cacheName(SCOPE, precacheOf(folder).version)]);
     const later = started(code, caches, offline);
     expect(await later.ask('', 'navigate')).toBe('the page');
-    // A tab that still shows the build before finds its parts.
+    // A tab that still shows the earlier build finds the parts of it.
     expect(await later.ask('assets/index-0.js')).toBe('an old part');
   });
 

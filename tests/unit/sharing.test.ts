@@ -1,4 +1,4 @@
-/** What is on the page, sent and opened again on another page: with the core, without a browser. */
+/** What is on the page is sent and opened on another page, with the core and without a browser. */
 import { afterEach, beforeAll, beforeEach, describe, expect, test, vi } from 'vitest';
 import { Links } from '../../www/app/links.ts';
 import { place, sentWorkOf, withMeshes } from '../../www/app/sent-work.ts';
@@ -18,7 +18,7 @@ beforeAll(() => {
   startModules();
 });
 
-/** The bytes of an octahedron, pulled to this height. */
+/** The bytes of an octahedron, stretched to this height. */
 function octahedron(height: number): Uint8Array {
   const vertices = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, height], [0, 0, -height]];
   const faces = [[1, 3, 5], [3, 2, 5], [2, 4, 5], [4, 1, 5], [3, 1, 6], [2, 3, 6], [4, 2, 6], [1, 4, 6]];
@@ -26,7 +26,7 @@ function octahedron(height: number): Uint8Array {
   return new TextEncoder().encode(lines.join('\n'));
 }
 
-/** The address that the page is at; what it writes there in the place of it. */
+/** The hash of the page's address, as it is read and written. */
 const address = { hash: '' };
 
 beforeEach(() => {
@@ -50,7 +50,7 @@ afterEach(() => {
   vi.unstubAllGlobals();
 });
 
-/** A page with two meshes, four pairs and a view of its own. */
+/** A page with two meshes, four pairs, and views that the user has changed. */
 function page(addresses: readonly [string?, string?] = []): Store {
   const store = new Store();
   const file = (name: string, height: number, from: string | undefined): ReturnType<typeof meshFile> =>

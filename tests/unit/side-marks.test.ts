@@ -1,4 +1,4 @@
-/** The landmarks of one mesh that come from a file of their own. */
+/** The landmarks of one mesh, from a file for that mesh alone. */
 import { describe, expect, test } from 'vitest';
 import type { SurfacePoint } from '../../www/landmarks.ts';
 import type { Event } from '../../www/store/events.ts';

@@ -1,4 +1,4 @@
-/** Soft pairs: made, settled by a run, held, taken back; what a lock and changes meanwhile do. */
+/** Soft pairs: they are made, settled by a run, held, and undone; the effect of locks and of changes during the run. */
 import { describe, expect, test } from 'vitest';
 import type { SettledLandmark } from '../../www/report.ts';
 import type { Event } from '../../www/store/events.ts';
@@ -12,7 +12,7 @@ const soften = (id: number, radius: number | null): Event => ({ kind: 'pair-soft
 const done = (settled: readonly SettledLandmark[]): Event => ({ kind: 'run-done', output: OUTPUT, report: { ...REPORT, settled } });
 const SETTLED: SettledLandmark = { pair: 1, point: { face: 4, barycentric: [0.25, 0.5, 0.25] }, moved: 0.012 };
 
-/** Pair 2 is soft, and a run has begun. */
+/** A state in which pair 2 is soft and a run has begun. */
 function running(): State {
   return after(READY, soften(2, 0.02), { kind: 'run-started' });
 }

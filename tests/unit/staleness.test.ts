@@ -1,4 +1,4 @@
-/** When the last map is no longer that of what is on the page, and what is said of it. */
+/** When the last map no longer belongs to what is on the page, and the sentence about it. */
 import { describe, expect, test } from 'vitest';
 import { staleSentence } from '../../www/messages.ts';
 import type { RunOptions } from '../../www/report.ts';

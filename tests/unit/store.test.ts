@@ -1,4 +1,4 @@
-/** The store tells its listeners of changes. */
+/** The store calls its listeners at changes. */
 import { expect, test } from 'vitest';
 import type { State } from '../../www/store/state.ts';
 import { INITIAL } from '../../www/store/state.ts';

@@ -1,4 +1,4 @@
-/** Names of suggested places. */
+/** The letters of suggested places. */
 import { expect, test } from 'vitest';
 import { lettered } from '../../www/app/suggest.ts';
 

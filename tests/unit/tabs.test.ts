@@ -1,12 +1,12 @@
-/** Sessions that tabs have open, by locks as browsers give them. */
+/** The sessions that tabs have open, by locks like those of a browser. */
 import { expect, test } from 'vitest';
 import { browserTabs } from '../../www/keep/tabs.ts';
 
-/** Locks of one browser: one holder for a name, the others wait in their order until they are given up. */
+/** The locks of one browser: a name has one holder, and the others wait in their order until it is released. */
 class Locks {
   readonly #held = new Map<string, Promise<void>>();
 
-  /** The locks as one tab has them; `close` lets all of them go, as the end of a tab does. */
+  /** The locks of one tab; `close` releases all of them, as the end of a tab does. */
   tab(): { readonly manager: LockManager; close(): void } {
     const ends: (() => void)[] = [];
     const request = async (name: string, { signal }: { signal: AbortSignal }, callback: () => Promise<void>): Promise<void> => {
@@ -51,7 +51,7 @@ test('a session is one tab’s until that gives it free or is closed', async () 
   one.release('unknown');
   expect(await other.claim('a', 50)).toBe(true);
   expect(await one.claim('a', 5)).toBe(false);
-  // A page that is reloaded waits a moment for itself.
+  // A page that is reloaded waits a moment for its own lock.
   const claimed = other.claim('b', 1000);
   first.close();
   expect(await claimed).toBe(true);

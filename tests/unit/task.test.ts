@@ -1,4 +1,4 @@
-/** Work that keeps the page busy. */
+/** Tasks that keep the page busy. */
 import { beforeEach, describe, expect, test, vi } from 'vitest';
 import { perform, performBeside } from '../../www/app/task.ts';
 import { FileRefused } from '../../www/files.ts';
@@ -8,7 +8,7 @@ let store: Store;
 
 beforeEach(() => {
   store = new Store();
-  // Every frame comes at once.
+  // Every frame is drawn at once.
   vi.stubGlobal('requestAnimationFrame', (draw: () => void) => {
     queueMicrotask(draw);
     return 0;

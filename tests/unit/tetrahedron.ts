@@ -1,6 +1,6 @@
 /** A mesh in two files. */
 
-/** A tetrahedron as glTF, its buffer in a file of its own, which the text names so. */
+/** A tetrahedron as glTF whose buffer is in a second file; `uri` is the name of that file in the text. */
 export function tetrahedron(uri: string): { readonly gltf: string; readonly bin: Uint8Array<ArrayBuffer> } {
   const corners = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1];
   const faces = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];

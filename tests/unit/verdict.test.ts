@@ -1,4 +1,4 @@
-/** A map in a person's words. */
+/** Sentences about how good a map is. */
 import { describe, expect, test } from 'vitest';
 import { largestStretch, verdictOf } from '../../www/panels/verdict.ts';
 import type { Report } from '../../www/report.ts';

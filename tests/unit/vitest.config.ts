@@ -7,11 +7,11 @@ export default defineConfig({
   test: {
     include: ['tests/unit/**/*.test.ts'],
     environment: 'node',
-    // The usual number, one less than there are processors, leaves one of two idle: 53 s in place of 33.
+    // The default, one less than the number of processors, leaves one of two idle: 53 s instead of 33.
     maxWorkers: Math.max(2, availableParallelism() - 1),
     restoreMocks: true,
     unstubGlobals: true,
-    // A busy machine builds every demo in half a minute; what hangs is still ended.
+    // On a busy machine all demos take half a minute to build; a test that hangs is still ended.
     testTimeout: 120_000,
   },
 });

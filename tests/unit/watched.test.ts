@@ -1,4 +1,6 @@
-/** What is watched: the flows of the run, on a scale that holds them, as numbers and as a table; the simplification, stage by stage. */
+/**
+ * What is watched: the flows of the run, on a scale that contains them, as numbers and as a table; and the simplification by its stages.
+ */
 import { beforeAll, describe, expect, test } from 'vitest';
 import type { Flows, SideFlow, Simplification } from '../../www/compute/watch-messages.ts';
 import { momentCount, placeOf, placesAt, radiiAt, scaleEnd } from '../../www/method/factors.ts';
@@ -36,7 +38,7 @@ describe('the flows of a map', () => {
     flows = recordFlows(demo.source(), demo.target(), landmarks, output.cones(), 'inversive', LISTENER);
     stages = recordSimplifications(demo.source(), demo.target(), landmarks, LISTENER);
     vertices = new TextDecoder().decode(demo.source()).match(/^v /gm)?.length ?? 0;
-    // A map is made first, maybe on a busy machine.
+    // A map is made first, possibly on a busy machine.
   }, 120_000);
 
   test('are those of its report, step by step', () => {
@@ -68,7 +70,7 @@ describe('the flows of a map', () => {
     expect(found.counts.at(-1)).toBe(base.faces);
     expect(found.triangles.length).toBe(3 * found.counts.reduce((sum, count) => sum + count, 0));
     expect(new Set(stageAt(found, 1, 1).triangles).size).toBe(base.vertices);
-    // All vertices but the base domain's go, each to one of these.
+    // All vertices except those of the base domain are removed, each by a collapse onto one of these.
     expect(found.collapses.length).toBe(2 * (vertices - base.vertices));
     const corners = new Set(stageAt(found, 1, 1).triangles);
     for (let vertex = 0; vertex < vertices; vertex++) {
@@ -119,9 +121,9 @@ function moment(step: number, residual: number): SideFlow['moments'][number] {
 }
 
 const LN2 = Math.LN2;
-/** Stopped by no triangle. */
+/** The fields of a flow that no triangle has stopped. */
 const RESTING = { stops: [], packedStops: new Uint8Array(), radii: new Float32Array([0.1, 0.2]), curvatures: [new Float32Array(2), new Float32Array(2)] } as const;
-/** Two vertices each; the target's flow is over after one step. */
+/** Both meshes have two vertices; the target's flow ends after one step. */
 const FLOWS: Flows = [
   { ...RESTING, moments: [moment(0, 1), moment(1, 0.02), moment(2, 1e-9)], converged: true, logFactors: new Float32Array([0, 0, LN2, -LN2, 2 * LN2, -2.5 * LN2]) },
   { ...RESTING, moments: [moment(0, 0.5), moment(1, 0)], converged: false, logFactors: new Float32Array([0, 0, 0.1, -0.1]) },
@@ -144,7 +146,7 @@ describe('the scale', () => {
     [1.5, -0.75].forEach((place, v) => { expect(source.to[v]).toBeCloseTo(place, 6); });
     expect(target.from).toEqual(target.to);
     expect(placesAt(FLOWS, 2, 2)[0].from).toEqual(placesAt(FLOWS, 2, 2)[0].to);
-    // Circles grow with the factor.
+    // The circles grow with the conformal factor.
     const [radii] = radiiAt(FLOWS, 1) ?? [];
     expect([...(radii ?? [])].map((radius) => Math.round(1000 * radius) / 1000)).toEqual([0.2, 0.1]);
     expect(radiiAt([FLOWS[0], { ...FLOWS[1], radii: new Float32Array() }], 1)).toBeNull();

@@ -1,4 +1,4 @@
-/** What everybody can use: no finding of axe in light and dark, in every step; all sizes of windows; the keyboard. */
+/** Accessibility: axe finds nothing in light and dark, in any step; windows of all sizes; the keyboard. */
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
@@ -12,14 +12,14 @@ async function expectNoFindings(page: Page, where: string, schemes: readonly Sch
   for (const colorScheme of schemes) {
     await page.emulateMedia({ colorScheme });
     const axe = new AxeBuilder({ page });
-    // The scheme changes colours and nothing else.
+    // The colour scheme changes only colours, so in dark only the contrast is checked.
     const { violations } = await (colorScheme === 'dark' ? axe.withRules('color-contrast') : axe.withTags(RULES)).analyze();
     const told = violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
     expect(told, `${where}, ${colorScheme}`).toEqual([]);
   }
 }
 
-/** The page with a demo, without motion: so no colour is on its way. */
+/** Opens the page with a demo and without motion, so that no colour is changing while it is checked. */
 async function openStill(page: Page): Promise<void> {
   await page.emulateMedia({ reducedMotion: 'reduce' });
   await openDemo(page);

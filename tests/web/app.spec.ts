@@ -6,11 +6,11 @@ import { DATA, drop, fail, needsSharedData, open, openDemo, openStep, pairs, ROO
 
 interface Half {
   readonly colours: number;
-  /** Share of the pixels that differ from the half's corner. */
+  /** The share of the pixels that differ from the half's corner. */
   readonly covered: number;
 }
 
-/** Reads both halves of the canvas right after a frame that a small turn asks for. */
+/** Reads both halves of the canvas right after a frame that a small turn has caused. */
 async function readHalves(page: Page): Promise<Half[]> {
   return page.evaluate(
     () =>
@@ -43,11 +43,11 @@ async function readHalves(page: Page): Promise<Half[]> {
   );
 }
 
-/** Clicks on the body in a view until the list or the hint changes: a click on a pin takes that, and picks nothing. */
+/** Clicks on the body in a view until `picked` is true. A click on a pin would select the pin and pick nothing. */
 async function pickOn(page: Page, view: string, picked: () => Promise<boolean>): Promise<void> {
   for (const { x, y } of (await placesOnBody(page, view)).slice(0, 6)) {
     await page.mouse.click(x, y);
-    // A click waits whether it is a double one, and a busy machine draws late.
+    // The page waits whether a click becomes a double click, and a busy machine draws late.
     for (let waited = 0; waited < 3000; waited += 100) {
       if (await picked()) {
         return;

@@ -1,4 +1,4 @@
-/** What the views show, read off as a user's eyes would: pins by their numbers, pixels, and how often something is drawn. */
+/** Reads what the views show: pins by their numbers, pixels, and how often something is drawn. */
 import type { Page } from '@playwright/test';
 import { fail } from './page.ts';
 
@@ -7,31 +7,31 @@ export interface Spot {
   readonly y: number;
 }
 
-/** What was drawn since it was last asked. */
+/** The draw calls since the last question. */
 export interface Drawn {
   readonly calls: number;
-  /** Triangles of the largest call. */
+  /** The number of triangles of the largest call. */
   readonly triangles: number;
   /** When each call was made, by the page's clock, in ms. */
   readonly at: readonly number[];
 }
 
-/** A coarse map that the page was told. */
+/** A coarse map that the page has received. */
 export interface Preview {
-  /** By the page's clock, in ms. */
+  /** The time by the page's clock, in ms. */
   readonly at: number;
   readonly places: Float32Array;
 }
 
-/** From the middle of a pin's head to its number, also of a raised one, and down to its place, in CSS pixels. */
+/** The distance from the middle of a pin's head to its number, also for a raised number, and down to the pin's place, in CSS pixels. */
 const NUMBER_BESIDE = 8;
 const RAISED_BESIDE = 10;
 export const STEM = 17;
 
-/** Longer than a glide and a rest, in ms. */
+/** A time longer than a camera's glide and rest, in ms. */
 export const SETTLED = 900;
 
-/** Counts what a page draws from its first frame on; to be called before it is opened. */
+/** Counts the draw calls of a page from its first frame on; must be called before the page is opened. */
 export async function countDraws(page: Page): Promise<void> {
   await page.addInitScript(() => {
     const drawn = { calls: 0, triangles: 0, at: [] as number[] };
@@ -51,7 +51,7 @@ export async function countDraws(page: Page): Promise<void> {
   });
 }
 
-/** What was drawn since it was last asked. */
+/** The draw calls since the last question. */
 export async function drawn(page: Page): Promise<Drawn> {
   return page.evaluate(() => {
     const counts = Reflect.get(window, 'drawn') as { calls: number; triangles: number; at: number[] };
@@ -63,7 +63,7 @@ export async function drawn(page: Page): Promise<Drawn> {
   });
 }
 
-/** Keeps each coarse map that the page is told in `window.previews`; to be called before it is opened. */
+/** Keeps each coarse map that the page receives in `window.previews`; must be called before the page is opened. */
 export async function keepPreviews(page: Page): Promise<void> {
   await page.addInitScript(() => {
     const told: Preview[] = [];
@@ -83,12 +83,12 @@ export async function keepPreviews(page: Page): Promise<void> {
   });
 }
 
-/** When each coarse map was told, by the page's clock, in ms. */
+/** The times at which the coarse maps were received, by the page's clock, in ms. */
 export async function previewTimes(page: Page): Promise<number[]> {
   return page.evaluate(() => (Reflect.get(window, 'previews') as Preview[]).map(({ at }) => at));
 }
 
-/** The middles of the pins' heads in the window by their numbers, of those that the body does not hide. */
+/** The middles of the visible pins' heads in the window, by the pins' numbers. */
 export async function heads(page: Page, view: string): Promise<Map<string, Spot>> {
   const list = await page.locator(`${view} .labels span`).evaluateAll((spans) =>
     spans
@@ -106,7 +106,7 @@ export function distance(a: Spot, b: Spot): number {
   return Math.hypot(a.x - b.x, a.y - b.y);
 }
 
-/** How far the pins that are seen before and after have moved. */
+/** The distances by which the pins that are visible before and after have moved. */
 export function moves(before: ReadonlyMap<string, Spot>, after: ReadonlyMap<string, Spot>): number[] {
   return [...before].flatMap(([number, spot]) => {
     const now = after.get(number);
@@ -114,7 +114,7 @@ export function moves(before: ReadonlyMap<string, Spot>, after: ReadonlyMap<stri
   });
 }
 
-/** A picture with a left and a right half, as PNG. */
+/** A PNG with a left and a right half of different colours. */
 export async function halvesPicture(page: Page, colours: readonly [string, string], size: readonly [number, number]): Promise<Buffer> {
   const url = await page.evaluate(
     ([[left, right], [width, height]]) => {
@@ -140,7 +140,7 @@ export interface Picture {
   readonly pixels: Uint8Array;
 }
 
-/** The picture in a PNG file in base64, as the browser decodes it. */
+/** The picture in a PNG file (base64), as the browser decodes it. */
 export async function decoded(page: Page, file: string): Promise<Picture> {
   const { width, height, read } = await page.evaluate(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
@@ -148,7 +148,7 @@ export async function decoded(page: Page, file: string): Promise<Picture> {
     const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
     context?.drawImage(image, 0, 0);
     const pixels = context?.getImageData(0, 0, image.width, image.height).data ?? new Uint8ClampedArray();
-    // By far the quickest way to a text.
+    // This is by far the quickest way to get a text.
     const text = await new Promise<string>((resolve) => {
       const reader = new FileReader();
       reader.onload = () => {
@@ -173,16 +173,16 @@ async function pictureOf(page: Page, element: string): Promise<Picture> {
   return decoded(page, (await page.screenshot({ clip })).toString('base64'));
 }
 
-/** The pixels of what is seen of an element, four bytes each: red, green, blue, opacity. */
+/** The pixels of the visible part of an element, four bytes each: red, green, blue, opacity. */
 export async function pixelsOf(page: Page, element: string): Promise<Uint8Array> {
   return (await pictureOf(page, element)).pixels;
 }
 
-/** How far a place lies inside the body at least, and how far from the next one, in pixels. */
+/** The least distance of a place from the outline of the body, and from the next place, in pixels. */
 const INSIDE = 12;
 const APART = 40;
 
-/** Places well inside the picture of the body in a view, apart from each other, from the view's middle outwards. */
+/** Places well inside the body in a view, apart from each other, from the view's middle outwards. */
 export async function placesOnBody(page: Page, view: string): Promise<Spot[]> {
   const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
   const { width, height, pixels } = await pictureOf(page, view);
@@ -207,7 +207,7 @@ export async function placesOnBody(page: Page, view: string): Promise<Spot[]> {
   return apart.map(({ x, y }) => ({ x: box.x + x, y: box.y + y }));
 }
 
-/** How many pixels are so. */
+/** The number of pixels for which `isSo` is true. */
 export function countPixels(pixels: Uint8Array, isSo: (red: number, green: number, blue: number) => boolean): number {
   let count = 0;
   for (let at = 0; at < pixels.length; at += 4) {
@@ -216,7 +216,7 @@ export function countPixels(pixels: Uint8Array, isSo: (red: number, green: numbe
   return count;
 }
 
-/** How much of a view is red, blue and green, in shares of its pixels. */
+/** The shares of a view's pixels that are red, blue and green. */
 export async function seen(page: Page, view: 'source' | 'target'): Promise<{ red: number; blue: number; green: number }> {
   const pixels = await pixelsOf(page, `#view-${view}`);
   const share = (isSo: (red: number, green: number, blue: number) => boolean): number => countPixels(pixels, isSo) / (pixels.length / 4);

@@ -1,4 +1,7 @@
-/** The map on the page beside others of the same meshes and landmarks: chosen by one click, seen on the source, told in figures. */
+/**
+ * The comparison of the map on the page with others of the same meshes and landmarks: chosen by one click, shown on the source, with
+ * figures.
+ */
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
@@ -27,7 +30,7 @@ test.afterAll(async () => {
   await page.context().close();
 });
 
-/** A view as it is seen: its pixels below the caption, above the bars, and away from the divider. */
+/** A picture of a view below its caption, above the bars, and away from the divider. */
 async function seen(view: string): Promise<string> {
   const box = (await page.locator(view).boundingBox()) ?? fail(`${view} has no box`);
   const clip = { x: Math.round(box.x) + 10, y: Math.round(box.y) + 48, width: Math.floor(box.width) - 20, height: Math.floor(box.height) - 112 };
@@ -36,7 +39,7 @@ async function seen(view: string): Promise<string> {
 
 async function views(): Promise<readonly [string, string]> {
   await page.mouse.move(5, 5);
-  // A view that has the keys is marked.
+  // A view with the keyboard focus has a frame around it.
   await page.evaluate(() => {
     if (document.activeElement instanceof HTMLElement) {
       document.activeElement.blur();
@@ -46,7 +49,10 @@ async function views(): Promise<readonly [string, string]> {
   return [await seen('#view-source'), await seen('#view-target')];
 }
 
-/** Of two pictures of one size: the share of pixels that differ, of those where one alone shows the body, and how many are grey in the second alone. */
+/**
+ * For two pictures of one size: the share of pixels with different colours, the share at which only one picture shows the body, and the
+ * number that are grey only in the second.
+ */
 async function difference([left, right]: readonly [string, string]): Promise<{ readonly colours: number; readonly outline: number; readonly grey: number }> {
   const [{ pixels: a }, { pixels: b }] = await bothDecoded(page, left, right);
   const isGround = (data: Uint8Array, at: number): boolean => [0, 1, 2].every((k) => Math.abs((data[at + k] ?? 0) - (data[k] ?? 0)) < 6);
@@ -63,7 +69,7 @@ async function difference([left, right]: readonly [string, string]): Promise<{ r
   return { colours: (4 * colours) / a.length, outline: (4 * outline) / a.length, grey };
 }
 
-/** The figures in the table: this map's and the other one's, by name. */
+/** The figures in the table, this map's and the other one's, by their names. */
 async function figures(): Promise<ReadonlyMap<string, readonly [string, string]>> {
   const rows = page.locator('.compared-figures tbody tr');
   const texts = await rows.evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
@@ -93,7 +99,7 @@ test('each of four maps is shown beside the map on the page by one click in the 
     const told = await compareWith(choice);
     const both = await views();
     await page.screenshot({ path: `${ROOT}test-results/compare-${choice.replaceAll(' ', '-')}.png` });
-    // The same body in both views, in other colours.
+    // Both views show the same body in different colours.
     const { colours, outline } = await difference(both);
     expect(outline, choice).toBeLessThan(0.02);
     expect(colours, choice).toBeGreaterThan(0.01);

@@ -1,4 +1,4 @@
-/** Meshes that are refused are seen, with what is wrong painted and listed; a click turns the camera there. */
+/** Refused meshes are shown, with their defects painted and listed; a click turns the camera to a defect. */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import { countPixels, pixelsOf, SETTLED } from './canvas.ts';
@@ -6,7 +6,7 @@ import { DATA, drop, dropContents, needsSharedData, open, ROOT } from './page.ts
 
 type Point = readonly [number, number, number];
 
-/** A ball: rings of latitude between two poles, as quads and triangles; faces that look out. */
+/** A ball: rings of latitude between two poles, of quads and triangles that face outwards. */
 function ball(rings: number, around: number): { readonly points: Point[]; readonly faces: number[][] } {
   const points: Point[] = [[0, 1, 0]];
   for (let i = 1; i < rings; i++) {
@@ -28,7 +28,7 @@ function ball(rings: number, around: number): { readonly points: Point[]; readon
   return { points, faces };
 }
 
-/** A large ball with a hole and a turned patch, and beside it a small one: two parts, so that it is refused. */
+/** A large ball with a hole and a turned patch, and a small one beside it; it has two parts, so it is refused. */
 function bad(): string {
   const large = ball(12, 24);
   const turned = new Set([149, 150, 161, 162]);
@@ -40,7 +40,7 @@ function bad(): string {
   return [...points.map((p) => `v ${p.join(' ')}`), ...all.map((f) => `f ${f.map((v) => v + 1).join(' ')}`)].join('\n');
 }
 
-/** How many pixels of a view are near a colour, as style sheets write it. */
+/** The number of pixels of a view that are near a colour, which is given as in style sheets. */
 async function pixelsNear(page: Page, view: string, colour: string): Promise<number> {
   const [red = 0, green = 0, blue = 0] = [1, 3, 5].map((k) => Number.parseInt(colour.slice(k, k + 2), 16));
   return countPixels(await pixelsOf(page, view), (r, g, b) => Math.abs(r - red) + Math.abs(g - green) + Math.abs(b - blue) < 40);
@@ -66,7 +66,7 @@ test('a refused mesh is painted, its defects turn the camera, and the repaired o
   await expect(target).toContainText(/bad\.obj .*not accepted/);
   const list = page.locator('.refused-mesh .defects');
   await expect(list.locator('summary')).toHaveText(['1 open rim', '1 patch that is turned over', '1 part beside the largest']);
-  // Of the mesh that waits behind it nothing is to be seen.
+  // Nothing of the mesh that waits behind it is visible.
   await expect(labels).toHaveCount(0);
   await page.waitForTimeout(SETTLED);
   await page.screenshot({ path: `${ROOT}test-results/defects-made.png` });
@@ -77,7 +77,7 @@ test('a refused mesh is painted, its defects turn the camera, and the repaired o
     expect(await pixelsNear(page, '#view-target', kind === 'open_rim' ? RIM : PATCH), kind).toBeGreaterThan(100);
   }
 
-  // Left out, what was there is there again; refused anew and repaired, it is drawn as every mesh.
+  // When it is left out, the earlier mesh is shown again; when it is refused anew and repaired, it is drawn like every mesh.
   await page.getByRole('button', { name: 'Leave it out' }).click();
   await expect(target).toContainText('sphere-tetrahedron-target.obj');
   await expect(labels.first()).toBeVisible();
@@ -101,7 +101,7 @@ test('a refused mesh is painted, its defects turn the camera, and the repaired o
   await expect(page.locator('.defects')).toHaveCount(0);
 });
 
-/** Those of the data folder that cannot be mapped as they are. */
+/** Meshes of the data folder that cannot be mapped as they are. */
 const BAD = [
   'camel-nonmanifold.off',
   'cow-pinched-vertex.off',

@@ -1,10 +1,10 @@
-/** What the page gives back: landmark files that load again, and exports that other programs can read. */
+/** What the page saves: landmark files that can be loaded again, and exports that other programs can read. */
 import { readFileSync, writeFileSync } from 'node:fs';
 import { expect, test } from './test.ts';
 import { downloaded, glbFaults, readGlb } from './glb.ts';
 import { DATA, finished, needsSharedData, openDemo, openStep, pairs, runMap } from './page.ts';
 
-/** Checks the container and that every index names a vertex; the number of triangles. */
+/** Checks the container, and that every index is that of a vertex; returns the number of triangles. */
 function trianglesOfGlb(glb: Buffer): number {
   expect(glb.subarray(0, 4).toString()).toBe('glTF');
   expect([glb.readUInt32LE(4), glb.readUInt32LE(8)]).toEqual([2, glb.length]);
@@ -49,7 +49,7 @@ test('landmarks and exports can be read again', async ({ page }) => {
   const [header, ...lines] = (await downloaded(page, 'CSV')).toString().trim().split('\n');
   expect(header?.split(',')).toHaveLength(8);
   expect(lines).toHaveLength(vertices);
-  // In one `expect`: each takes milliseconds.
+  // All rows are checked in one `expect`, since each call takes milliseconds.
   const isRow = (line: string): boolean => {
     const numbers = line.split(',').map(Number);
     return numbers.length === 8 && numbers.every((number) => Number.isFinite(number)) && numbers.slice(0, 5).every((number) => number >= -1e-9);
@@ -60,7 +60,7 @@ test('landmarks and exports can be read again', async ({ page }) => {
   expect(base.filter((line) => line.startsWith('f '))).toHaveLength(2 * count - 4);
   const report = JSON.parse((await downloaded(page, 'Report')).toString()) as { certificate: { bijective: boolean }; stopped_early: boolean };
   expect([report.certificate.bijective, report.stopped_early]).toEqual([true, false]);
-  // These are made of the map file when they are asked for.
+  // These files are made from the map file on demand.
   const targetFaces = Number(/([\d,]+) triangles/.exec(await page.locator('#view-target').innerText())?.[1]?.replace(',', ''));
   const map = await downloaded(page, 'Map file');
   expect(map.subarray(0, 7).toString()).toBe('CONEMAP');
@@ -75,7 +75,7 @@ test('landmarks and exports can be read again', async ({ page }) => {
   expect(shape.filter((line) => line.startsWith('f '))).toHaveLength(faces);
   expect((await downloaded(page, 'Layout')).toString()).toContain('<svg');
 
-  // The source's own lines but the places, which are on the target.
+  // The lines are the source's own, except the positions, which are on the target.
   const wrapped = (await downloaded(page, 'Wrapped')).toString().split('\n');
   const places = (text: readonly string[]): readonly string[] => text.filter((line) => line.startsWith('v '));
   expect(places(wrapped)).toHaveLength(vertices);
@@ -99,7 +99,7 @@ test('landmarks and exports can be read again', async ({ page }) => {
 test('a mirrored set is repaired by a click', { tag: '@long' }, async ({ page }) => {
   needsSharedData();
   await openDemo(page, '');
-  // The mirror image of the lion: x turned, and every triangle with it.
+  // The mirror image of the lion: x is negated, and every triangle is turned.
   const [kind, sizes, ...lines] = readFileSync(`${DATA}/sumner/lion.off`, 'utf8').split(/\r?\n/).filter((line) => line.trim() !== '' && !line.startsWith('#'));
   const count = Number(sizes?.trim().split(/\s+/)[0]);
   const mirrored = lines.map((line, index) => {

@@ -1,17 +1,17 @@
-/** A run that is asked for its result before it is done. */
+/** A run that is asked to finish early. */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import { DATA, finished, needsSharedData, openDemo, openStep, pairs } from './page.ts';
 
-/** What the line of the status said at one time. */
+/** What the status line showed at one time. */
 interface Said {
   readonly sentence: string;
-  /** The number that the run brings down. */
+  /** The number that the run lowers. */
   readonly number: string;
   readonly finishable: boolean;
 }
 
-/** The energy that the result shows. */
+/** The energy that is shown with the result. */
 async function energyOf(page: Page): Promise<number> {
   await finished(page);
   await expect(page.locator('#result')).toContainText(/Certified bijective.*: 0 of [\d,]+ triangles flipped/);
@@ -28,7 +28,7 @@ test('Finish now gives a certified map that is marked as finished early', async 
   await expect(page.locator('#result .warning').first()).toContainText('Finished early on request, at energy');
 
   await page.evaluate(() => {
-    // The relaxation of so small a map is too short to be looked for from outside: all that the line says is written down.
+    // The relaxation of so small a map is too short to be observed from outside, so everything that the line shows is recorded.
     const said: Said[] = [];
     Reflect.set(window, 'said', said);
     const line = document.querySelector('#status-line');
@@ -45,7 +45,7 @@ test('Finish now gives a certified map that is marked as finished early', async 
   const full = await energyOf(page);
   await expect(page.locator('#result')).not.toContainText('finished early');
   expect(full).toBeLessThan(early);
-  // Offered as long as there is something to shorten.
+  // The button is offered only as long as the run can be shortened.
   const said = await page.evaluate(() => Reflect.get(window, 'said') as Said[]);
   const relaxing = said.filter(({ sentence }) => sentence.startsWith('Relaxing'));
   expect(relaxing.some(({ number }) => /^Energy \d\.\d+ .*, level \d$/.test(number))).toBe(true);
@@ -67,7 +67,7 @@ test('a run on real meshes finishes when asked during its relaxation', { tag: '@
   await expect(pairs(page)).toHaveCount(33, { timeout: 60_000 });
   await page.locator('#run').click();
   await expect(page.locator('.energy-curve')).toBeVisible({ timeout: 120_000 });
-  // Every level has a piece of its own, and each falls: y grows downwards.
+  // Every level has a piece of its own, and each piece falls: y points down.
   await expect(page.locator('.energy-curve line').first()).toBeAttached({ timeout: 120_000 });
   const pieces = await page.locator('.energy-curve polyline').evaluateAll((lines) => lines.map((line) => line.getAttribute('points') ?? ''));
   expect(pieces.length).toBeGreaterThan(1);

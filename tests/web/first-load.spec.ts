@@ -1,6 +1,6 @@
 /**
- * What the browser fetches before a mesh can be dropped: no equations and no plots, which come when they are asked for, and not what
- * reads meshes and makes maps, which comes after it.
+ * What the browser fetches before a mesh can be dropped: neither equations nor plots, which are fetched on demand, nor the core, which
+ * reads meshes and makes maps and is fetched afterwards.
  */
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -10,10 +10,10 @@ import { expect, test } from './test.ts';
 import { dropContents, fail, open, openDemo, ROOT, runMap, TETRAHEDRON } from './page.ts';
 
 const ASSETS = join(ROOT, 'dist/assets');
-/** In bytes, packed with gzip. */
+/** The most bytes of the first load, packed with gzip. */
 const LARGEST_FIRST_LOAD = 150_000;
 
-/** The scripts that index.html asks for, with all that they import at once. */
+/** The scripts that index.html asks for, with everything that they import statically. */
 function firstScripts(): ReadonlyMap<string, string> {
   const found = new Map<string, string>();
   const visit = (name: string): void => {
@@ -46,12 +46,12 @@ test('the first load has no part of KaTeX and uPlot, and stays small', () => {
 });
 
 const CORE = /\/core_bg[^/]*\.wasm$/;
-/** The gallery's pictures: they come when the demos can be opened. */
+/** The pictures of the gallery, which are fetched when the demos can be opened. */
 const PICTURE = /\/demos\/[^/]*$/;
-/** In bytes, of all files, packed with brotli. */
+/** The most bytes of all files, packed with brotli. */
 const BUDGET = 1_000_000;
 
-/** Opens the page, waits until it asks for the core, and gives what it asked for before that and before the gallery's pictures. */
+/** Opens the page, waits until it asks for the core, and returns the requests before that, without the gallery's pictures. */
 async function firstRequests(page: Page): Promise<readonly Request[]> {
   const requests: Request[] = [];
   page.on('request', (request) => {
@@ -79,7 +79,7 @@ test.describe('a visit as users have it', () => {
     expect(first.filter((request) => request.url().includes('page_bg'))).toHaveLength(1);
   });
 
-  // Of the modules as they are published, which the short tests do without.
+  // This checks the modules as they are published, which the short tests do without.
   test('the first load is small', { tag: '@long' }, async ({ page }) => {
     const first = await firstRequests(page);
     const sizes = await Promise.all(first.map(packedSize));
@@ -97,7 +97,7 @@ test.describe('a visit as users have it', () => {
   });
 });
 
-/** Keeps the core back until what this gives is called. */
+/** Holds the core back until the returned function is called. */
 async function heldCore(page: Page): Promise<() => void> {
   let letThrough = (): void => undefined;
   const opened = new Promise<void>((resolve) => {

@@ -1,4 +1,4 @@
-/** The family of flows in the step Method: each by its name, and the place where one without flips stops. */
+/** The discrete conformal structures of the flows in the step Method: each by its name, and the place at which one without flips stops. */
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
@@ -9,14 +9,14 @@ import { open, openStep, ROOT, runMap } from './page.ts';
 
 const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
 
-/** How many pixels of a view have the colour in which triangles that stop a flow are painted, or nearly so. */
+/** The number of pixels of a view that have, at least nearly, the colour of triangles that stop a flow. */
 async function painted(page: Page, view: string): Promise<number> {
   return countPixels(await pixelsOf(page, view), (r, g, b) => Math.hypot(r - 208, g - 28, b - 139) < 40);
 }
 
 test('every structure has its flow, and the triangle that stops the one without flips is painted, told and brought into sight', { tag: '@long' }, async ({ page }) => {
   await open(page);
-  // One after the other, faster than they are read.
+  // The files are chosen one after the other, faster than they are read.
   await page.locator('#source-file').setInputFiles(upload('rod.obj', rod(8)));
   await page.locator('#target-file').setInputFiles(upload('ball.obj', rod(1)));
   await page.locator('#landmark-file').setInputFiles(upload('corners.json', CORNERS));
@@ -37,7 +37,7 @@ test('every structure has its flow, and the triangle that stops the one without 
     await page.keyboard.press('End');
     await expect.poll(() => Promise.all([converged(0), converged(1)]), { message: name }).toEqual([true, true]);
   }
-  // Around each vertex a circle, but not where there is none.
+  // Every vertex has a circle, except where the structure has none.
   const circles = page.getByRole('checkbox', { name: 'Circles on the meshes' });
   const dark = async (view: string): Promise<number> => countPixels(await pixelsOf(page, view), (r, g, b) => Math.max(r, g, b) < 60);
   const ringless = [await dark('#view-source'), await dark('#view-target')] as const;
@@ -53,7 +53,7 @@ test('every structure has its flow, and the triangle that stops the one without 
   await structures.getByRole('radio', { name: 'Inversive distance, no flips', exact: true }).check();
   const told = page.locator('[data-stopped="0"]');
   await expect(told).toContainText(/The source’s flow stops after \d+ steps, .*: beyond, .*triangles? ha(s|ve) no area/, { timeout: 60_000 });
-  // The sign at its middle, and with it what is seen of the triangle.
+  // The mark in the triangle's middle, and the visible part of the triangle.
   await expect.poll(() => painted(page, '#view-source')).toBeGreaterThan(before + 20);
   await told.getByRole('button', { name: /^Show face \d+$/ }).first().click();
   await page.waitForTimeout(SETTLED + 800);
@@ -62,7 +62,7 @@ test('every structure has its flow, and the triangle that stops the one without 
   await page.screenshot({ path: `${ROOT}test-results/flow-stopped.png` });
   const { violations } = await new AxeBuilder({ page }).include('#panel').withTags(RULES).analyze();
   expect(violations.map(({ id }) => id)).toEqual([]);
-  // Another structure, and leaving the flow, take the paint away.
+  // The paint is removed by another structure, and by leaving the flow.
   await structures.getByRole('radio', { name: 'Touching circles', exact: true }).check();
   await expect.poll(() => painted(page, '#view-source')).toBeLessThan(before + 10);
   await page.locator('#close-flow').click();

@@ -1,6 +1,6 @@
 /**
- * How long a frame takes while two meshes of 100,000 triangles each are turned, beside a bare draw of the same triangles on a canvas of the same
- * size: nothing but positions and normals, one light.
+ * The time of a frame while two meshes of 100,000 triangles each are turned, compared with a bare draw of the same triangles on a canvas of
+ * the same size, with only positions, normals and one light.
  */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
@@ -8,10 +8,10 @@ import { SETTLED } from './canvas.ts';
 import { upload } from './own-files.ts';
 import { fail, open } from './page.ts';
 
-/** Rows and columns of a ball: twice their product of triangles, but for the poles. */
+/** The rows and columns of a ball; it has twice their product of triangles, except at the poles. */
 const ROWS = 224;
 
-/** A ball with waves, as OBJ. */
+/** A ball with waves on it, as OBJ. */
 function wavy(waves: number): string {
   const lines: string[] = ['v 0 0 1'];
   for (let row = 1; row < ROWS; row += 1) {
@@ -36,12 +36,12 @@ function wavy(waves: number): string {
   return lines.join('\n');
 }
 
-/** The middle one. */
+/** The median of some values. */
 function median(values: readonly number[]): number {
   return values.toSorted((a, b) => a - b)[Math.floor(values.length / 2)] ?? fail('no values');
 }
 
-/** Milliseconds from frame to frame while the mouse drags in the first view. */
+/** The time between frames while the mouse drags in the first view, in ms. */
 async function turned(page: Page): Promise<number> {
   const box = (await page.locator('#view-source').boundingBox()) ?? fail('no view');
   const times = page.evaluate(
@@ -72,7 +72,7 @@ async function turned(page: Page): Promise<number> {
   return median((await times).slice(10));
 }
 
-/** The same of a bare draw of such balls, side by side. */
+/** The same for a bare draw of such balls, side by side. */
 async function bare(page: Page, size: { readonly width: number; readonly height: number }): Promise<number> {
   await page.setContent(`<canvas width="${size.width}" height="${size.height}"></canvas>`);
   return median(

@@ -1,4 +1,4 @@
-/** GLB files as the page gives them and takes them. */
+/** GLB files that the page saves and opens. */
 import { readFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
 import { test } from './test.ts';
@@ -11,7 +11,7 @@ interface Accessor {
   readonly type: string;
 }
 
-/** As much of a glTF document as is looked at. */
+/** The parts of a glTF document that the tests use. */
 export interface Gltf {
   readonly asset: { readonly version: string };
   readonly meshes: readonly { readonly primitives: readonly { readonly indices: number; readonly attributes: Readonly<Record<string, number>> }[] }[];
@@ -20,7 +20,7 @@ export interface Gltf {
   readonly images?: readonly { readonly bufferView: number }[];
 }
 
-/** Presses a button and reads the file that it saves. */
+/** Presses a button, and returns the file that it saves. */
 export async function downloaded(page: Page, button: string): Promise<Buffer> {
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: button, exact: true }).click();
@@ -35,7 +35,7 @@ export interface Glb {
   readonly bytes: Buffer;
   readonly document: Gltf;
   readonly binary: Buffer;
-  /** The bytes of a view. */
+  /** The bytes of a buffer view. */
   readonly view: (number: number) => Buffer;
 }
 
@@ -51,7 +51,7 @@ export function readGlb(bytes: Buffer): Glb {
   return { bytes, document, binary, view };
 }
 
-/** The GLB that a button saves. */
+/** The GLB file that a button saves. */
 export async function savedFile(page: Page, button: string): Promise<Glb> {
   return readGlb(await downloaded(page, button));
 }
@@ -65,7 +65,7 @@ export function glbOf(document: object, binary: Buffer): Buffer {
   return Buffer.concat([head, words(json.length), Buffer.from('JSON'), json, words(binary.length), Buffer.from('BIN\0'), binary]);
 }
 
-/** What the Khronos validator says of a GLB, without hints. */
+/** The errors and warnings of the Khronos validator about a GLB file. */
 export async function glbFaults(glb: Buffer): Promise<string[]> {
   const report = await validateBytes(new Uint8Array(glb), { maxIssues: 20 });
   return report.issues.messages.filter(({ severity }) => severity <= 1).map(({ code, message, pointer }) => `${code}: ${message} ${pointer ?? ''}`);

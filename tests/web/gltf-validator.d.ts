@@ -3,7 +3,7 @@ declare module 'gltf-validator' {
   interface Message {
     readonly code: string;
     readonly message: string;
-    /** 0 an error, 1 a warning, 2 information, 3 a hint. */
+    /** 0 for an error, 1 for a warning, 2 for information, 3 for a hint. */
     readonly severity: number;
     readonly pointer?: string;
   }

@@ -1,4 +1,4 @@
-/** The guide, the plots and the gallery, as a user meets them. */
+/** The guide, the plots and the gallery as a user sees them. */
 import { readFileSync } from 'node:fs';
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Download, Page } from '@playwright/test';
@@ -13,7 +13,7 @@ async function expectNoFindings(page: Page, where: string): Promise<void> {
   expect(told, where).toEqual([]);
 }
 
-/** What the console says that is an error, from now on. */
+/** The errors that the console reports from now on. */
 function errorsOf(page: Page): readonly string[] {
   const errors: string[] = [];
   page.on('console', (message) => {
@@ -27,7 +27,7 @@ function errorsOf(page: Page): readonly string[] {
   return errors;
 }
 
-/** No part of an open dialog is wider than the dialog, at these widths. */
+/** Checks that at these widths no part of an open dialog is wider than the dialog. */
 async function expectFits(page: Page, id: string): Promise<void> {
   for (const width of [360, 1280]) {
     await page.setViewportSize({ width, height: 800 });
@@ -72,7 +72,7 @@ test('the guide opens by its link, draws its equations, and closes by Escape', a
 
   await page.locator('#open-guide').click();
   await expect(guide.getByRole('heading', { name: 'What Conemap does' })).toBeVisible();
-  // Keys of the page beneath do nothing meanwhile.
+  // Keys do not reach the page beneath meanwhile.
   await page.keyboard.press('4');
   await guide.getByRole('button', { name: 'Close: Guide' }).click();
   await expect(guide).toBeHidden();
@@ -148,13 +148,13 @@ test('a map is plotted, read by keys, saved, and compared with the one before it
   await page.keyboard.press('Escape');
   await expect(plots).toBeHidden();
 
-  // The guide knows the map, and shows it.
+  // The guide shows the numbers of the map, and the map itself on demand.
   await page.locator('#open-guide').click();
   await expect(page.locator('#guide')).toContainText(/Here E = 4\.\d+/);
   await page.locator('#guide li', { hasText: 'Relax the map itself' }).getByRole('button', { name: 'Show it on the meshes' }).click();
   await expect(page.getByRole('button', { name: 'Picture: Distortion' })).toBeVisible();
 
-  // Another map: the one before it stays in the plots.
+  // Another map is made; the plots keep the one before it.
   await openStep(page, 'landmarks');
   await page.getByRole('button', { name: 'Delete pair 1', exact: true }).click();
   await page.locator('#run').click();
@@ -181,7 +181,7 @@ test('the gallery shows each demo with its picture, and copies its link', { tag:
   await expect(page.locator('.toast')).toContainText('The link is copied.');
   expect(new URL(await page.evaluate(() => navigator.clipboard.readText())).hash).toBe('#demo=poses');
 
-  // An empty page invites with the same pictures; a link that waits for its click leaves it empty.
+  // An empty page shows the same pictures; a link that waits for its click leaves the page empty.
   await page.goto('about:blank');
   await open(page, '#source=https://example.org/a.obj');
   expect(await page.locator('.demo-line .demo-card').count()).toBeGreaterThanOrEqual(3);

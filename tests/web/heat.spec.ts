@@ -1,4 +1,4 @@
-/** What surfaces show of the flat metric: textures, an own picture among them, and heat maps with their values under the mouse. */
+/** Surfaces that belong to the flat metric: textures, also from a picture of the user, and heat maps with their values under the mouse. */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import { countPixels, halvesPicture, pixelsOf, seen } from './canvas.ts';
@@ -6,7 +6,7 @@ import { fail, openDemo, openStep, runMap, showSurface } from './page.ts';
 
 const VIEWS = ['source', 'target'] as const;
 
-/** The share of a view's pixels that are so. */
+/** The share of a view's pixels for which `isSo` is true. */
 async function share(page: Page, view: string, isSo: (red: number, green: number, blue: number) => boolean): Promise<number> {
   const pixels = await pixelsOf(page, `#view-${view}`);
   return countPixels(pixels, isSo) / (pixels.length / 4);
@@ -38,7 +38,7 @@ test('ribbons, circles and coordinates lie on both meshes, as large and turned a
     await expect.poll(() => share(page, view, (r, g, b) => r > 1.3 * b && r > 1.1 * g)).toBeGreaterThan(0.005);
     expect(await share(page, view, (r, g, b) => g > 1.3 * b && g > 1.1 * r)).toBeGreaterThan(0.005);
   }
-  // Each slider changes the picture, and the picture comes back with it.
+  // Each slider changes the picture, and setting it back restores the picture.
   await page.getByRole('button', { name: 'Picture: Coordinates' }).click();
   await page.getByRole('radio', { name: 'Ribbons', exact: true }).check();
   for (const name of ['texture-cells', 'texture-turn', 'texture-x', 'texture-y']) {
@@ -51,7 +51,7 @@ test('ribbons, circles and coordinates lie on both meshes, as large and turned a
     };
     await slider.fill(name === 'texture-turn' ? '90' : name === 'texture-cells' ? '10' : '3');
     if (name === 'texture-y') {
-      // Ribbons go that way.
+      // Ribbons run in this direction, so a shift along it changes nothing.
       await expect.poll(differ).toBeLessThan(0.001);
     } else {
       await expect.poll(differ, name).toBeGreaterThan(0.01);
@@ -82,7 +82,7 @@ test('a picture of one’s own lies on both meshes; what is no picture is told, 
   await expect.poll(async () => (await seen(page, 'source')).red).toBeGreaterThan(0.01);
 });
 
-/** Points at the middle of a view, a little beside it, and reads what is said of the place. */
+/** Points at a place near the middle of a view, and returns the numbers in the sentence about it. */
 async function told(page: Page, sentence: RegExp): Promise<readonly number[]> {
   const box = (await page.locator('#view-source').boundingBox()) ?? fail('the view has no box');
   await page.mouse.move(box.x + 5, box.y + 5);
@@ -109,7 +109,7 @@ test('heat maps of the map have a legend and tell the value under the mouse', as
   const [areas = 0] = await told(page, new RegExp(`Areas here grow by the factor ${NUMBER}`));
   expect(areas).toBeGreaterThan(0.3);
   expect(areas).toBeLessThan(3);
-  // (s1² + s2² + s1⁻² + s2⁻²) / 4 = angle (area + 1 / area) / 2, smoothed around points in both.
+  // (s1² + s2² + s1⁻² + s2⁻²) / 4 = angle (area + 1 / area) / 2; both sides are smoothed around points.
   expect((angles * (areas + 1 / areas)) / 2 / distortion).toBeCloseTo(1, 0);
 });
 
@@ -128,7 +128,7 @@ test('heat maps of the flow: the conformal factor, and the curvature of a sphere
   const [flat = 1] = await told(page, new RegExp(`Curvature here after the flow, in units of a sphere’s: ${NUMBER} on the source`));
   expect(Math.abs(flat)).toBeLessThan(1e-3);
   await expect(page.getByText('100 × sphere')).toBeVisible();
-  // Another surface, and the picture is the usual one again.
+  // With another surface the usual picture is shown again.
   await showSurface(page, 'Plain');
   await expect(page.getByText('100 × sphere')).toHaveCount(0);
 });

@@ -1,4 +1,4 @@
-/** Nothing is lost: steps taken back and made again, reloads, new visits, and two tabs. */
+/** Nothing is lost: undo and redo, reloads, new visits, and two tabs. */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import type { Upload } from './own-files.ts';
@@ -29,7 +29,7 @@ async function openOwn(page: Page, target: Upload): Promise<number> {
   return pairs;
 }
 
-/** Waits until the browser has kept work with so many pairs. */
+/** Waits until the browser has kept work with this many pairs. */
 async function kept(page: Page, pairs: number): Promise<void> {
   const counts = (): Promise<number[]> =>
     page.evaluate(
@@ -66,7 +66,7 @@ test('a target that was mirrored is taken back with all landmarks, and mirrored 
   await page.keyboard.press('Control+z');
   await page.keyboard.press('Control+y');
   await shows(page, 'horse.obj', 'cat (mirrored).obj', pairs);
-  // Back to the first step: the landmarks, the target, the source.
+  // Undo leads back to the first demo, through the landmarks, the target and the source.
   for (let step = 0; step < 4; step++) {
     await page.keyboard.press('Control+z');
   }
@@ -77,7 +77,7 @@ test('a target that was mirrored is taken back with all landmarks, and mirrored 
   await expect(page.locator('#error')).toBeHidden();
 });
 
-/** A ring, which has one handle. */
+/** A torus, which has one handle. */
 function ring(): string {
   const lines: string[] = [];
   const [around, tube] = [12, 8];

@@ -1,4 +1,4 @@
-/** Runs that end before their time: cancelled at any moment, or broken off. */
+/** Runs that end early: cancelled at any moment, or broken off. */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import { finished, openDemo, openStep, pairs } from './page.ts';
@@ -8,7 +8,7 @@ import { trapping } from './trapping.ts';
 const CANCELS = Number(process.env['CONEMAP_CANCELS'] ?? 50);
 const SEED = Number(process.env['CONEMAP_SEED'] ?? 1);
 
-/** Asks for so many own cones: a change, without which nothing is run again. */
+/** Chooses a number of own cones: without a change nothing is run again. */
 async function chooseOwnCones(page: Page, choice: string): Promise<void> {
   await openStep(page, 'map');
   const choices = page.getByRole('combobox', { name: 'Own cones' });
@@ -43,7 +43,7 @@ test('a run can be cancelled at any moment, and the next one is whole', { tag: [
     await chooseOwnCones(page, choices[run % choices.length] ?? '');
     await page.locator('#run').click();
     if ((await page.locator('body').getAttribute('data-state')) !== 'running') {
-      // The run before went on to its end, with the same choice.
+      // The run before reached its end, with the same choice.
       continue;
     }
     await page.waitForTimeout(random.unit() * whole);
@@ -90,7 +90,7 @@ test('a run that breaks off is told with a report to copy, and the next one is w
   expect(report).toContain('triangles');
   await openStep(page, 'landmarks');
   await expect(pairs(page)).toHaveCount(count);
-  // The next visit has a core that is whole, and what was there.
+  // The next visit has an intact core, and the work that was there.
   await page.reload();
   await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
   await page.locator('#run').click();

@@ -1,4 +1,4 @@
-/** Landmark files of other programs and meshes in several files, by the choosers and menus alone. */
+/** Landmark files of other programs and meshes in several files, opened and saved only by choosers and menus. */
 import { readFileSync } from 'node:fs';
 import type { Download, FileChooser, Page } from '@playwright/test';
 import { expect, test } from './test.ts';
@@ -12,7 +12,7 @@ interface Landmarks {
   readonly labels?: readonly string[];
 }
 
-/** The files that an action downloads, by their names and in their order. */
+/** The files that an action downloads, in their order. */
 async function downloads(page: Page, count: number, action: () => Promise<void>): Promise<{ name: string; mimeType: string; buffer: Buffer }[]> {
   const come: Download[] = [];
   const take = (download: Download): void => {
@@ -36,7 +36,7 @@ async function saved(page: Page): Promise<Landmarks> {
   return JSON.parse(file?.buffer.toString() ?? '') as Landmarks;
 }
 
-/** Whether points are the same, within what rounding does to weights. */
+/** Checks that points are the same, up to the rounding of weights. */
 function expectSamePoints(found: Landmarks, wanted: Landmarks, format: string): void {
   expect(found.pairs, format).toHaveLength(wanted.pairs.length);
   found.pairs.forEach((pair, index) => {
@@ -54,7 +54,7 @@ function expectSamePoints(found: Landmarks, wanted: Landmarks, format: string): 
   });
 }
 
-/** Opens the menu of formats and goes to an entry, with the keyboard alone. */
+/** Opens the menu of formats and goes to an entry, using only the keyboard. */
 async function chooseByKeys(page: Page, name: RegExp): Promise<void> {
   await page.locator('#landmark-formats').focus();
   await page.keyboard.press('Enter');
@@ -73,7 +73,7 @@ test('landmarks are saved in every format, and read back to the same points', { 
   await openDemo(page);
   await openStep(page, 'landmarks');
   const first = await saved(page);
-  // Points inside faces beside the demo's vertices.
+  // Points inside faces are added to the demo's vertices.
   const inFaces = [
     [{ face: 40, barycentric: [0.25, 0.5, 0.25] }, 3],
     [9, { face: 71, barycentric: [0.1, 0.2, 0.7] }],
@@ -103,7 +103,7 @@ test('landmarks are saved in every format, and read back to the same points', { 
     expect((await page.locator('#landmark-file').getAttribute('accept'))?.split(',')).toContain(ending);
   }
 
-  // Of one mesh alone, under a name that says nothing: by keys, and through the chooser that they open.
+  // A file of one mesh alone, whose name fits neither mesh: opened by keys, and through the chooser that they open.
   const choosers: FileChooser[] = [];
   page.on('filechooser', (chooser) => {
     choosers.push(chooser);

@@ -1,12 +1,12 @@
-/** Landmark files and picks that cannot be: named at once, and nothing is lost. */
+/** Impossible landmark files and picks: they are reported at once, and nothing is lost. */
 import { expect, test } from './test.ts';
 import { openDemo, openStep, pairs } from './page.ts';
 
-/** A tetrahedron with its edges' middles: vertices and faces, from 1 as in OBJ files. */
+/** A tetrahedron with the midpoints of its edges: vertices and faces, numbered from 1 as in OBJ files. */
 const VERTICES = ['1 1 1', '1 -1 -1', '-1 1 -1', '-1 -1 1', '1 0 0', '0 0 -1', '0 1 0', '0 0 1', '0 -1 0', '-1 0 0'];
 const FACES = ['1 5 7', '5 2 6', '7 6 3', '5 6 7', '1 8 5', '8 4 9', '5 9 2', '8 9 5', '1 7 8', '7 3 10', '8 10 4', '7 10 8', '2 9 6', '9 4 10', '6 10 3', '9 10 6'];
 
-/** As an OBJ file, with vertices in front that no face uses. */
+/** The tetrahedron as an OBJ file, with vertices before it that no face uses. */
 function tetrahedron(unused: number): string {
   const corner = (number: string): string => String(Number(number) + unused);
   const faces = FACES.map((face) => `f ${face.split(' ').map(corner).join(' ')}`);
@@ -52,7 +52,7 @@ test('landmarks speak of the vertices of the file', async ({ page }) => {
   await openStep(page, 'landmarks');
   await expect(pairs(page)).toHaveCount(4);
 
-  // A mesh of the same name without that many vertices: the landmarks stay, and are named.
+  // A mesh of the same name with fewer vertices: the landmarks stay, and are named in the error.
   const bare = [...VERTICES.slice(0, 4).map((v) => `v ${v}`), 'f 1 2 3', 'f 1 4 2', 'f 1 3 4', 'f 2 4 3'].join('\n');
   await page.locator('#target-file').setInputFiles(file('b.obj', bare));
   await expect(page.locator('#error p')).toHaveText(/^Landmark pair 4 .* names vertex 4, but the target has 4 vertices\. The landmarks are kept/);
@@ -98,7 +98,7 @@ test('a click on a pin takes it and picks nothing', async ({ page }) => {
   await page.keyboard.press('Escape');
   await page.mouse.move(5, 5);
   await expect(raised).toHaveCount(0);
-  // The pin stands where the first click was.
+  // The pin is at the place of the first click.
   await middle('#view-source');
   await page.mouse.move(5, 5);
   await expect(raised).toHaveText('1');
@@ -114,6 +114,6 @@ test('the list has the colours of the markers, each another', async ({ page }) =
     .evaluateAll((swatches) => swatches.map((swatch) => getComputedStyle(swatch).backgroundColor));
   expect(colours.length).toBeGreaterThan(3);
   expect(new Set(colours).size).toBe(colours.length);
-  // The first landmark is red, as its marker.
+  // The first landmark is red, like its marker.
   expect(colours[0]).toMatch(/^color\(srgb-linear 0\.67\d* 0\.019\d* 0\.046\d*\)$/);
 });

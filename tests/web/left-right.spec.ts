@@ -1,4 +1,4 @@
-/** Left and right together: one click makes two pairs, one step takes them back, and a map is made with them. */
+/** Left and right together: one click makes two pairs, one step undoes them, and a map is made from them. */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import type { Spot } from './canvas.ts';
@@ -7,14 +7,14 @@ import { fail, openDemo, openStep, pairs, ROOT, runMap } from './page.ts';
 
 const VIEWS = ['#view-source', '#view-target'] as const;
 
-/** Where the demo has its landmarks in a view, by their names, as far as they are seen. */
+/** The places of the demo's landmarks in a view, by their labels, as far as they are visible. */
 async function places(page: Page, view: string): Promise<ReadonlyMap<string, Spot>> {
   const names = await page.locator('#landmark-list input').evaluateAll((inputs) => inputs.map((input) => (input as HTMLInputElement).value));
   const seen = [...(await heads(page, view))];
   return new Map(seen.map(([number, { x, y }]) => [names[Number(number) - 1] ?? '', { x, y: y + STEM }]));
 }
 
-/** Waits until both views stand still, however slowly frames come. */
+/** Waits until both views are still, however slowly frames come. */
 async function stillness(page: Page): Promise<void> {
   let before = '';
   await expect(async () => {
@@ -26,14 +26,14 @@ async function stillness(page: Page): Promise<void> {
   }).toPass();
 }
 
-/** Clicks, and waits until a second click would be another one. */
+/** Clicks, and waits until another click would not make a double click. */
 async function click(page: Page, { x, y }: Spot): Promise<void> {
   await page.mouse.click(x, y);
   await page.waitForTimeout(500);
   await page.mouse.move(5, 5);
 }
 
-/** The pin of a number, at its place: it comes with the next frame. */
+/** The place of a pin, by its number; it is shown with the next frame. */
 async function pin(page: Page, view: string, number: string): Promise<Spot> {
   await expect.poll(async () => (await heads(page, view)).has(number), { message: `pin ${number} of ${view} is seen` }).toBe(true);
   const head = (await heads(page, view)).get(number) ?? fail(`pin ${number} of ${view} is not seen`);
@@ -44,7 +44,7 @@ test('a click on each mesh makes two whole pairs, which go together', { tag: '@l
   await openDemo(page);
   await openStep(page, 'landmarks');
   for (const view of VIEWS) {
-    // Both ears are seen from the top.
+    // Both ears are visible from the top.
     await page.locator(view).focus();
     await page.keyboard.press('Shift+T');
   }
@@ -56,11 +56,11 @@ test('a click on each mesh makes two whole pairs, which go together', { tag: '@l
   const planes = page.getByRole('region', { name: 'Left and right' });
   await planes.getByRole('checkbox', { name: 'Left and right together' }).check();
   await expect(planes.getByRole('status')).toHaveText([
-    /^The source mirrors itself: its mirror image is 0\.0\d % of its size off on average\.$/,
-    /^The target mirrors itself: its mirror image is 0\.0\d % of its size off on average\.$/,
+    /^The source is symmetric: its mirror image is 0\.0\d % of its size off on average\.$/,
+    /^The target is symmetric: its mirror image is 0\.0\d % of its size off on average\.$/,
   ]);
 
-  // Two halves, then two whole pairs.
+  // There are two half pairs, and then two complete ones.
   const rows = page.locator('#landmark-list tr[data-id]');
   await click(page, spot(0, 'left ear'));
   await expect(rows).toHaveCount(2);
@@ -71,14 +71,14 @@ test('a click on each mesh makes two whole pairs, which go together', { tag: '@l
   await expect(pairs(page)).toHaveCount(2);
   expect(distance(await pin(page, VIEWS[1], '2'), spot(1, 'right ear'))).toBeLessThan(8);
 
-  // The name of the other side follows.
+  // The label of the other side follows.
   const names = page.locator('#landmark-list input');
   await names.first().fill('left ear');
   await names.first().press('Enter');
   await expect(names.nth(1)).toHaveValue('right ear');
   await page.screenshot({ path: `${ROOT}test-results/left-right.png` });
 
-  // The name, both targets, both pairs, and forth again.
+  // Undo takes back the label, both targets and both pairs, and redo makes them again.
   await page.keyboard.press('Control+z');
   await page.keyboard.press('Control+z');
   await expect(rows).toHaveCount(2);
@@ -90,7 +90,7 @@ test('a click on each mesh makes two whole pairs, which go together', { tag: '@l
     await expect(pairs(page)).toHaveCount(count);
   }
 
-  // The other ear goes along, on its side of the line.
+  // The other ear is moved as well, on its side of the plane.
   const [ear, partner] = [await pin(page, VIEWS[0], '1'), await pin(page, VIEWS[0], '2')];
   await page.mouse.move(ear.x, ear.y - STEM);
   await page.mouse.down();
@@ -103,7 +103,7 @@ test('a click on each mesh makes two whole pairs, which go together', { tag: '@l
   expect(moved.y - partner.y).toBeGreaterThan(3);
   await page.keyboard.press('Control+z');
 
-  // What lies on the midline stays single.
+  // A point on the midline stays single.
   await click(page, spot(0, 'withers'));
   await expect(rows).toHaveCount(3);
   await click(page, spot(1, 'withers'));
@@ -113,7 +113,7 @@ test('a click on each mesh makes two whole pairs, which go together', { tag: '@l
   await expect(pairs(page)).toHaveCount(5);
   await runMap(page);
 
-  // What the map proposes is taken for both sides.
+  // A proposal of the map is accepted for both sides.
   const [flank, croup] = [spot(0, 'right flank'), spot(0, 'croup')];
   await click(page, { x: (flank.x + croup.x) / 2, y: (flank.y + croup.y) / 2 });
   await expect(page.locator('#hint')).toContainText('Pair 6: click the see-through pin that the map proposes on the target');

@@ -1,4 +1,4 @@
-/** The table of landmarks: everything by keys and by mouse, undone by a toast, fast with many rows. */
+/** The table of landmarks: used by keys and by mouse, undone by a toast, and fast with many rows. */
 import { readFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
@@ -37,7 +37,7 @@ test('the keyboard selects, reorders, renames, locks and deletes', async ({ page
   await expect(rows).toHaveCount(before.length - 1);
   await expect(rows.nth(0)).toBeFocused();
 
-  // The others keep their numbers; the toast brings the pair back, the history the rest.
+  // The other pairs keep their numbers; the toast brings the pair back, and undo the rest.
   expect((await numbers(page))[0]).toBe('1');
   await page.locator('#toast').getByRole('button', { name: 'Undo' }).click();
   await expect(rows).toHaveCount(before.length);

@@ -13,12 +13,12 @@ const own: OwnFiles = ownFiles();
 interface Shape {
   readonly text: string;
   readonly vertices: readonly (readonly [number, number, number])[];
-  /** Least and greatest number along the longest way. */
+  /** The least and the greatest coordinate along the axis. */
   readonly range: readonly [number, number];
   readonly axis: number;
 }
 
-/** An OBJ file's vertices and the axis along which it is longest. */
+/** The vertices of an OBJ file, and the axis along which it is longest. */
 function shapeOf(text: string): Shape {
   const vertices = [...text.matchAll(/^v (\S+) (\S+) (\S+)/gm)].map(([, x, y, z]) => [Number(x), Number(y), Number(z)] as const);
   const ranges = [0, 1, 2].map((k) => {
@@ -30,7 +30,7 @@ function shapeOf(text: string): Shape {
   return { text, vertices, range: ranges[axis] ?? [0, 1], axis };
 }
 
-/** From 0 at one end to 1 at the other. */
+/** The place along the axis, from 0 at one end to 1 at the other. */
 function along({ range: [low, high], axis }: Shape, v: readonly number[]): number {
   return ((v[axis] ?? 0) - low) / (high - low);
 }
@@ -43,7 +43,7 @@ function coloured(text: string): string {
   );
 }
 
-/** The file with a place in a picture at each corner: from left to right along the mesh. */
+/** The file with texture coordinates at each corner: from left to right along the mesh. */
 function placed(text: string): string {
   const shape = shapeOf(text);
   const places = shape.vertices.map((v) => `vt ${0.02 + 0.96 * along(shape, v)} 0.5`).join('\n');
@@ -131,7 +131,7 @@ test('colours of the source are carried where the target has none; files without
   await expect(page.getByRole('radio', { name: 'Own colours' })).toBeDisabled();
 });
 
-/** The file with a material on either half, each of which has a place in its picture at every corner. */
+/** The file with a material on either half, and texture coordinates into that material's picture at every corner. */
 function halved(text: string): string {
   const shape = shapeOf(text);
   const places = shape.vertices.map((v) => `vt ${0.02 + 0.96 * along(shape, v)} 0.5`).join('\n');
@@ -149,7 +149,7 @@ function plain(page: Page, colour: string): Promise<Buffer> {
   return halvesPicture(page, [colour, colour], [16, 16]);
 }
 
-/** The mesh as GLB with two primitives, each with a material and a picture of its own. */
+/** The mesh as GLB with two primitives, each with its own material and picture. */
 function twoPictures(text: string, pictures: readonly [Buffer, Buffer]): Buffer {
   const shape = shapeOf(text);
   const faces = [...text.matchAll(/^f (\S+) (\S+) (\S+)/gm)].map(([, ...corners]) => corners.map((corner) => Number(corner) - 1));
@@ -182,7 +182,7 @@ function twoPictures(text: string, pictures: readonly [Buffer, Buffer]): Buffer 
   return glbOf(document, Buffer.concat(padded));
 }
 
-/** Both colours are seen on the target at once. */
+/** Checks that both colours are visible on the target at once. */
 async function expectBoth(page: Page, view: 'source' | 'target'): Promise<void> {
   await expect
     .poll(async () => {
@@ -245,18 +245,18 @@ test('pictures that cannot be shown are told, and the mesh and the other picture
   const back = { name: 'back.png', content: await plain(page, '#e00000') };
   const horse = { name: 'horse.obj', content: own.horse.buffer };
   const error = page.locator('#error');
-  // One is missing.
+  // One picture is missing.
   await dropped(page, [horse, mesh, materials, back, landmarks]);
   await expect(error).toContainText('cat.obj: The picture front.png is missing');
   await expect.poll(async () => (await seen(page, 'target')).red).toBeGreaterThan(0.01);
-  // One is none.
+  // One file is not a picture.
   await dropped(page, [horse, mesh, materials, back, { name: 'front.png', content: '<script>' }, landmarks]);
   await expect(error).toContainText('cat.obj: The picture front.png is no PNG, JPEG or WebP file');
-  // One begins as one and is none, as the browser finds.
+  // One file begins like a picture, but the browser cannot decode it.
   await dropped(page, [horse, mesh, materials, back, { name: 'front.png', content: back.content.subarray(0, 40) }, landmarks]);
   await expect(error).toContainText('cat.obj: this browser cannot decode 1 picture of it');
   await expect.poll(async () => (await seen(page, 'target')).red).toBeGreaterThan(0.01);
-  // Places that are no numbers.
+  // Texture coordinates that are not numbers.
   const nowhere = { ...mesh, content: mesh.content.replace(/^vt \S+/m, 'vt nan') };
   await dropped(page, [horse, nowhere, materials, back, { ...back, name: 'front.png' }, landmarks]);
   await expect(error).toContainText('cat.obj: Its colours are incomplete: line');

@@ -1,4 +1,4 @@
-/** What a finished map is good for in the views: morph, wipe, proposed partners, worst places. One page and one map for all. */
+/** The uses of a finished map in the views: morph, wipe, proposed partners, worst places. All tests share one page and one map. */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import type { Spot } from './canvas.ts';
@@ -12,11 +12,11 @@ interface Box {
   readonly height: number;
 }
 
-/** Beside the line of the wipe and its grip, in pixels. */
+/** The distance from the line of the wipe at which its grip is not in the way, in pixels. */
 const BESIDE_LINE = 22;
-/** From a pin's foot to where a click does not take the pin, in pixels. */
+/** The distance from a pin's foot at which a click does not take the pin, in pixels. */
 const BESIDE_PIN = 9;
-/** Longer than the way to the target's shape and back, in ms, on a slow machine. */
+/** A time longer than the way to the target's shape and back on a slow machine, in ms. */
 const PLAYED = 30_000;
 
 test.describe.configure({ mode: 'serial' });
@@ -46,12 +46,12 @@ async function inside(view: string): Promise<Box> {
   return { x: Math.round(x) + 10, y: Math.round(y) + 50, width: Math.round(width) - 20, height: Math.round(height) - 120 };
 }
 
-/** What is seen in a part of the window: a PNG in base64. */
+/** A picture of a part of the window, as PNG in base64. */
 async function seen(clip: Box): Promise<string> {
   return (await page.screenshot({ clip })).toString('base64');
 }
 
-/** How many pixels of two pictures differ by more than shading does, in columns from `from` to before `to`. */
+/** The number of pixels at which two pictures differ by more than shading, in the columns from `from` up to, but without, `to`. */
 async function differing(a: string, b: string, from: number, to: number): Promise<number> {
   const [one, other] = await bothDecoded(page, a, b);
   let count = 0;
@@ -114,9 +114,9 @@ test('it is played there and back, and draws no frame once it is still', async (
   expect((await drawn(page)).calls).toBe(0);
   expect(await differing(before, await seen(clip), 0, clip.width)).toBe(0);
 
-  // It stops where it is told to.
+  // The playback stops where it is told to.
   await button.click();
-  // Clicked in the page, at once: on a busy machine a click from outside may come after the end, and play it again.
+  // The click is made in the page, without delay: on a busy machine a click from outside may come after the end, and play again.
   await page.waitForFunction(
     ([stop, at]) => Number((at as HTMLInputElement).value) > 5 && ((stop as HTMLElement).click(), true),
     [await button.elementHandle(), await slider().elementHandle()],
@@ -139,7 +139,7 @@ test('where motion is reduced it is in the other shape at once', async () => {
   await button.press('Enter');
   await expect(slider()).toHaveValue('0');
   await page.waitForTimeout(SETTLED);
-  // One frame, or two: surfaces and pins of both views.
+  // One or two frames are drawn, with the surfaces and pins of both views.
   expect((await drawn(page)).calls).toBeLessThan(20);
   await page.emulateMedia({ reducedMotion: null });
 });
@@ -165,10 +165,10 @@ test('a line wipes what the map carries across the source', { tag: '@long' }, as
     const wiped = await seen(clip);
     const line = view.x + share * view.width - clip.x;
     const [left, right] = [line - BESIDE_LINE, line + BESIDE_LINE];
-    // On the left the mesh by itself, but for the shading of its outline by other triangles.
+    // On the left the mesh is drawn plain; only the shading of its outline differs, because the triangles are others.
     expect(await differing(wiped, plain, 0, left)).toBeLessThan(0.01 * body);
     expect(await differing(wiped, carried, 0, left)).toBeGreaterThan(0.9 * (await differing(plain, carried, 0, left)));
-    // On the right what the map carries, to the pixel.
+    // On the right the picture is exactly what the map carries.
     expect(await differing(wiped, carried, right, clip.width)).toBe(0);
     expect(await differing(plain, carried, 0, left)).toBeGreaterThan(0.02 * body);
     expect(await differing(plain, carried, right, clip.width)).toBeGreaterThan(0.02 * body);
@@ -198,7 +198,7 @@ test('a line wipes what the map carries across the source', { tag: '@long' }, as
   expect(await differing(carried, await seen(clip), 0, clip.width)).toBe(0);
 });
 
-/** A pin that is seen in both views, and places on the body beside its foot: from there inwards. */
+/** A pin that is visible in both views, and places on the body beside its foot, towards the middle. */
 async function pinOfBoth(): Promise<{ number: string; source: Spot; target: Spot }> {
   const [source, target] = [await heads(page, '#view-source'), await heads(page, '#view-target')];
   const middle = (all: ReadonlyMap<string, Spot>): Spot => {
@@ -226,7 +226,7 @@ test('a click on one side proposes its image on the other, which Enter makes a p
   const before = await rows.count();
   const number = String(before + 1);
   const ghost = page.locator('#view-target .labels span:visible', { hasText: `${number}?` });
-  // Beside a landmark the image is beside its partner.
+  // The image of a place beside a landmark is beside the landmark's partner.
   const pin = await pinOfBoth();
   await page.mouse.click(pin.source.x, pin.source.y);
   await expect(ghost).toHaveCount(1);
@@ -241,7 +241,7 @@ test('a click on one side proposes its image on the other, which Enter makes a p
   await page.keyboard.press('Enter');
   await expect(rows).toHaveCount(before + 1);
   await expect(ghost).toHaveCount(0);
-  // The pin stands where the ghost stood.
+  // The pin is at the place of the ghost.
   await page.waitForTimeout(SETTLED);
   const placed = (await heads(page, '#view-target')).get(number) ?? fail('no pin');
   expect(distance(placed, at)).toBeLessThan(1);
@@ -250,7 +250,7 @@ test('a click on one side proposes its image on the other, which Enter makes a p
   await expect(rows).toHaveCount(before);
   await expect(ghost).toHaveCount(1);
 
-  // Escape drops the ghost, then the half pair.
+  // Escape drops the ghost first, and then the half pair.
   await page.locator('#view-source').focus();
   await page.keyboard.press('Escape');
   await expect(ghost).toHaveCount(0);
@@ -280,7 +280,7 @@ test('a click on the ghost takes it, a click elsewhere places the partner there'
   await page.keyboard.press('Control+z');
   await expect(page.locator('#hint')).toContainText('to add a pair');
 
-  // The other way round, and elsewhere.
+  // The same in the other direction, with a click at another place than the proposed one.
   const toSource = await begin('#view-target');
   await page.mouse.click(toSource.x, toSource.y + STEM + 14);
   await expect(rows).toHaveCount(before + 1);
@@ -320,7 +320,7 @@ test('the next worst place comes before both cameras, with a ring in each view',
   for (const clip of middles) {
     rings.push(await seen(clip));
   }
-  // The rings go when the mouse comes.
+  // The rings disappear when the mouse moves.
   const { x, y } = await boxOf(views[0]);
   await page.mouse.move(x + 4, y + 60);
   await page.waitForTimeout(SETTLED);

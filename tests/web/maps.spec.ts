@@ -1,4 +1,4 @@
-/** Finished maps that come back from their files: as after the run, without computing. */
+/** Finished maps that are opened from their files look as after the run, and nothing is computed. */
 import { readFileSync } from 'node:fs';
 import type { BrowserContext, Page } from '@playwright/test';
 import { expect, test } from './test.ts';
@@ -17,14 +17,14 @@ async function downloaded(page: Page, button: string): Promise<Saved> {
   return { name: file.suggestedFilename(), content: readFileSync(await file.path()) };
 }
 
-/** What the step Map says of the map: the verdict, the proof, all numbers. */
+/** The texts of the step Map about the map: the verdict, the proof, and all numbers. */
 async function told(page: Page): Promise<string[]> {
   await openStep(page, 'map');
   const all = page.locator('#result .verdict .sentence, #result .shield, #details .facts');
   return all.evaluateAll((parts) => parts.map((part) => part.textContent));
 }
 
-/** Both views as they are drawn. */
+/** A picture of both views. */
 async function drawn(page: Page): Promise<Buffer> {
   await page.mouse.move(640, 5);
   await page.evaluate(
@@ -36,7 +36,7 @@ async function drawn(page: Page): Promise<Buffer> {
   return page.locator('#canvas').screenshot();
 }
 
-/** What the line below says of the place in the middle of the source. */
+/** The sentence of the status line about the place in the middle of the source. */
 async function asked(page: Page): Promise<string> {
   const box = (await page.locator('#view-source').boundingBox()) ?? fail('there is no view');
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
@@ -46,7 +46,7 @@ async function asked(page: Page): Promise<string> {
 
 const EXPORTS = ['GLB', 'CSV', 'Base OBJ', 'Inverse table', 'Source shape', 'Target shape', 'Layout', 'Map file'];
 
-/** All that the page gives of a map. */
+/** All files that the page saves for a map. */
 async function takenAway(page: Page): Promise<ReadonlyMap<string, Buffer>> {
   await openStep(page, 'use');
   const files = new Map<string, Buffer>();
@@ -69,7 +69,7 @@ async function known(page: Page): Promise<Known> {
   return { told: await told(page), drawn: await drawn(page), asked: await asked(page), files: await takenAway(page) };
 }
 
-/** A page that computes nothing but the warm-up, which is the demo's. */
+/** A page that makes no map except that of the warm-up, which is the demo's. */
 async function idlePage(context: BrowserContext): Promise<{ readonly page: Page; readonly runs: string[] }> {
   const page = await context.newPage();
   const runs: string[] = [];
@@ -112,14 +112,14 @@ test('a map comes back from its file as the run gave it, and what is wrong with 
     expect(again.files.get(name)?.equals(bytes), name).toBe(true);
   }
 
-  // Back to before the map, and to it again.
+  // Undo leads to the state before the map, and redo to the map again.
   await openStep(other, 'map');
   await other.locator('#undo').click();
   await expect(other.locator('#result')).toHaveClass(/outdated/);
   await other.locator('#redo').click();
   await expect(other.locator('#result')).not.toHaveClass(/outdated/);
 
-  // Neither a damaged map nor one of other meshes takes anything away.
+  // Neither a damaged map nor a map of other meshes removes anything from the page.
   const half = map.content.subarray(0, map.content.length / 2);
   const bent = Buffer.from(map.content);
   bent.fill(0xff, bent.length - 4000);
@@ -135,7 +135,7 @@ test('a map comes back from its file as the run gave it, and what is wrong with 
     await expect(other.locator('#result')).not.toHaveClass(/outdated/);
   }
 
-  // A project brings its map, too; over the map that is there nothing is to be seen of it but its name.
+  // A project brings its map, too; opened over the same map, it changes only the name that is shown.
   await dropContents(other, [project]);
   await expect(other.locator('#reopened')).toContainText(`Opened from ${project.name}`);
   await expect(other.locator('#result')).not.toHaveClass(/outdated/);
@@ -143,7 +143,7 @@ test('a map comes back from its file as the run gave it, and what is wrong with 
   expect(runs).toEqual([]);
   await other.close();
 
-  // A map alone waits for its meshes, which find their sides.
+  // A map that is opened alone waits for its meshes, which are put on their sides.
   const { page: waiting } = await idlePage(context);
   await waiting.locator('#mesh-files').setInputFiles({ name: map.name, mimeType: '', buffer: map.content });
   const notice = waiting.locator('#map-notice');

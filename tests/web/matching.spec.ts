@@ -1,10 +1,10 @@
-/** Landmarks that the program finds: from no pair to a certified map, and back by one step. */
+/** The search for landmarks: from no pair to a certified map, and back by one step. */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import { ownFiles } from './own-files.ts';
 import { openDemo, openStep, pairs, ROOT, runMap } from './page.ts';
 
-/** Each answer has a picture of both meshes, which turns with the views. */
+/** Checks that each answer has a picture of both meshes, which turns with the views. */
 async function seePictures(page: Page): Promise<void> {
   const pictures = page.locator('.answers canvas');
   await expect(pictures).toHaveCount(await page.locator('.answers li').count());
@@ -31,7 +31,7 @@ test('landmarks are found for meshes without any, and the map goes through them'
   await expect(pairs(page)).toHaveCount(0);
   await expect(page.locator('#run')).toBeDisabled();
 
-  // A search that is given up leaves nothing.
+  // A search that is given up leaves nothing behind.
   const find = page.getByRole('button', { name: 'Find landmarks' });
   const progress = page.getByRole('progressbar', { name: 'Looking for landmarks' });
   await find.click();
@@ -40,8 +40,8 @@ test('landmarks are found for meshes without any, and the map goes through them'
   await expect(progress).toBeHidden();
   await expect(pairs(page)).toHaveCount(0);
 
-  // Where both meshes are the user's it begins by itself, and a click on one of them would end it. Gone to its end it brings pairs
-  // and says how sure they are; the page opens their list.
+  // For two meshes of the user the search begins by itself, and a click on one of them would end it. When it is finished, it has placed
+  // pairs and says how sure they are, and the page opens their list.
   const { horse, cat } = ownFiles();
   await openStep(page, 'meshes');
   await page.locator('#source-file').setInputFiles(horse);

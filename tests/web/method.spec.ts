@@ -1,6 +1,6 @@
 /**
- * The step Method: the base domain turned with the views, asked, lit up on the meshes and from them, saved; the flat metrics in the plane,
- * grown from patches; flows and simplification played on the meshes.
+ * The step Method: the base domain is turned with the views, asked about its parts, lit up on the meshes and from them, and saved; the flat
+ * metrics in the plane are grown from patches; flows and simplification are played on the meshes.
  */
 import { readFileSync } from 'node:fs';
 import { AxeBuilder } from '@axe-core/playwright';
@@ -24,7 +24,7 @@ test.beforeAll(async ({ browser }) => {
   });
   await openDemo(page);
   await runMap(page);
-  // Where the numbers of the map are is a way to it.
+  // The details of the map have a link to the base domain.
   await openStep(page, 'map');
   await page.getByText('Details', { exact: true }).click();
   await page.locator('#show-base-domain').click();
@@ -37,7 +37,10 @@ test.afterAll(async () => {
   await page.context().close();
 });
 
-/** How many pixels of a view are of the colour in which parts light up: magenta, over whatever is beneath. Some pins have such, too. */
+/**
+ * The number of pixels of a view in the colour in which parts are lit up: magenta, over whatever is beneath. Some pins have this colour,
+ * too.
+ */
 async function litPixels(view: string): Promise<number> {
   return countPixels(await pixelsOf(page, view), (r, g, b) => r > g + 60 && b > g + 30);
 }
@@ -47,7 +50,7 @@ async function lit(): Promise<readonly number[]> {
   return [await litPixels('#view-source'), await litPixels('#view-target')];
 }
 
-/** Where the picture has its corners, in the order of their numbers. */
+/** The places of the corners in the picture, in the order of their numbers. */
 async function corners(): Promise<Spot[]> {
   return page.locator('#base-picture circle').evaluateAll((circles) =>
     circles
@@ -78,7 +81,7 @@ test('it turns with the views, and they with it', async () => {
   const turned = await corners();
   expect(Math.max(...turned.map((spot, k) => Math.hypot(spot.x - (before[k]?.x ?? 0), spot.y - (before[k]?.y ?? 0))))).toBeGreaterThan(5);
 
-  // A drag on it turns the pins of the target's view.
+  // A drag on the picture turns the pins in the target's view.
   const heads = (): Promise<string[]> => page.locator('#view-target .labels span').evaluateAll((all) => all.map((span) => (span as HTMLElement).style.transform + (span as HTMLElement).style.cssText));
   const pins = await heads();
   const box = (await page.locator('#base-picture').boundingBox()) ?? fail('no picture');
@@ -102,7 +105,7 @@ test('a corner, a side and a triangle light up on both meshes', async () => {
   await expect(page.locator('.base-reading')).toContainText(/^Side from /);
   await page.keyboard.press('f');
   await expect(page.locator('.base-reading')).toContainText(/^Triangle of /);
-  // Some patch is seen in both views, and much more of it than of a path.
+  // Some patch is visible in both views, and shows many more pixels than a path.
   const seen: (readonly number[])[] = [];
   const isSeen = (counts: readonly number[]): boolean => counts.every((count, side) => count > 300 + (before[side] ?? 0));
   for (let k = 0; k < 8 && !seen.some(isSeen); k += 1) {
@@ -144,7 +147,7 @@ test('it is saved as a drawing that stands alone', async () => {
   expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual([1800, 1400]);
 });
 
-/** How many pixels of a picture are red as the cut, or blue-green as the circles. */
+/** The numbers of pixels of a picture that are red like the cut, or blue-green like the circles. */
 async function marked(picture: string): Promise<{ readonly cut: number; readonly circles: number }> {
   await page.locator(picture).scrollIntoViewIfNeeded();
   const pixels = await pixelsOf(page, picture);
@@ -157,7 +160,7 @@ async function marked(picture: string): Promise<{ readonly cut: number; readonly
 const SOURCE_PLANE = '[data-plane="0"]';
 const TARGET_PLANE = '[data-plane="1"]';
 
-/** Saves a file of the plane. */
+/** Saves the layout in the plane as a file. */
 async function savedPlane(format: string): Promise<Buffer> {
   const download = page.waitForEvent('download');
   await page.getByRole('button', { name: `Save the plane as ${format}` }).click();
@@ -174,7 +177,7 @@ test('both meshes are laid out in the plane, cut from cone to cone', async () =>
   for (const { cut } of whole) {
     expect(cut).toBeGreaterThan(100);
   }
-  // With a few rings around the seed there is nothing to cut.
+  // A few rings around the seed need no cut.
   const slider = page.getByRole('slider', { name: 'Step of the growth' });
   await slider.focus();
   await page.keyboard.press('Home');
@@ -194,13 +197,13 @@ test('the layout grows from the patch that is chosen in the base domain or in th
   await expect(page.locator('#play-growth')).toHaveText('Pause');
   await expect(page.locator('#play-growth')).toHaveText('Play', { timeout: 60_000 });
   await expect(page.locator(SOURCE_PLANE)).toHaveAttribute('data-drawn', '5114');
-  // The patch is lit up in the plane, too.
+  // The patch is lit up in the plane as well.
   await page.locator(SOURCE_PLANE).scrollIntoViewIfNeeded();
   await page.waitForTimeout(200);
   expect(await litPixels(SOURCE_PLANE)).toBeGreaterThan(20);
   const reading = await page.locator('.base-reading').textContent();
 
-  // A click grows it from another one.
+  // A click grows the layout from another patch.
   await page.locator(TARGET_PLANE).scrollIntoViewIfNeeded();
   const box = (await page.locator(TARGET_PLANE).boundingBox()) ?? fail('no plane');
   const shares = Array.from({ length: 12 }, (_, k) => 0.08 + 0.07 * k);
@@ -250,7 +253,7 @@ test('the plane shows the circles of the packing, and is saved as picture, drawi
   await expect(page.locator('.base-reading')).toContainText(/corners, /);
 });
 
-/** How many pixels of a view are warm or violet, as factors that grow or shrink. */
+/** The numbers of pixels of a view that are warm or violet, where factors grow or shrink. */
 async function coloured(view: string): Promise<{ readonly warm: number; readonly violet: number }> {
   const pixels = await pixelsOf(page, view);
   return {
@@ -313,7 +316,7 @@ test('both meshes are simplified to their landmarks, and come back', { tag: '@lo
   await expect(words).toHaveText('5,114 triangles on the source, 4,574 on the target');
   await page.locator('#play-simplification').click();
   await expect(page.locator('#play-simplification')).toHaveText('Play', { timeout: 60_000 });
-  // Two less than twice the vertices, as many on both meshes.
+  // Both meshes have as many triangles: twice the number of vertices, less 4.
   const [, source = '', target = ''] = /^(\d+) triangles on the source, (\d+) on the target$/.exec((await words.textContent()) ?? '') ?? fail('no counts');
   expect(source).toBe(target);
   expect(Number(source)).toBe(2 * (await page.locator('#view-source .labels span').count()) - 4);
@@ -340,13 +343,13 @@ test('both meshes are simplified to their landmarks, and come back', { tag: '@lo
   await page.mouse.move(box.x + 3, box.y + 3);
   await expect(history).toContainText('Point at a mesh');
   await expect.poll(red).toBeLessThan(without + 0.0001);
-  // Of one mesh, carried to the other: both have as many triangles from the beginning.
+  // With one mesh simplified and carried to the other, both have equally many triangles from the beginning.
   for (const [choice, count] of [['From the target', '4,574'], ['Jointly', '5,114']] as const) {
     await page.getByRole('radio', { name: choice }).check();
     await expect(words).toHaveText(`${count} triangles on the source, ${count} on the target`, { timeout: 60_000 });
     await slider.focus();
     await page.keyboard.press('End');
-    // The landmarks of the user alone.
+    // Only the user's landmarks remain.
     await expect(words).toHaveText(/^(\d+) triangles on the source, \1 on the target$/);
     await page.keyboard.press('Home');
     for (let k = 0; k < 14; k += 1) {

@@ -1,10 +1,10 @@
-/** The way of the source to the target's shape: straight at first, and then one on which limbs turn. */
+/** The way of the source to the target's shape: at first straight, then one on which limbs turn. */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import { pixelsOf, SETTLED } from './canvas.ts';
 import { openDemo, runMap } from './page.ts';
 
-/** Until `letWay` is called no worker is asked for the way. */
+/** Holds back all requests for the way until `letWay` is called. */
 async function holdWay(page: Page): Promise<void> {
   await page.addInitScript(() => {
     const held: (() => void)[] = [];
@@ -32,7 +32,7 @@ async function letWay(page: Page): Promise<number> {
   return page.evaluate(() => (Reflect.get(window, 'letWay') as () => number)());
 }
 
-/** How many pixels of the source's view differ by more than shading does. */
+/** The number of pixels of the source's view that differ by more than shading. */
 function differing(one: Uint8Array, other: Uint8Array): number {
   let count = 0;
   for (let at = 0; at < one.length; at += 4) {

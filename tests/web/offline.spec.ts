@@ -1,4 +1,4 @@
-/** Visits without a network, and a new build while the page is open. */
+/** Visits without a network, and a new build that appears while the page is open. */
 import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -17,7 +17,7 @@ async function isReady(page: Page): Promise<void> {
   await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
 }
 
-/** Waits until the page is kept and its requests are answered from what is kept. */
+/** Waits until the page is kept, and its requests are answered from the cache. */
 async function isKept(page: Page): Promise<void> {
   await page.waitForFunction(async () => {
     await navigator.serviceWorker.ready;
@@ -36,10 +36,10 @@ test('after the first visit the page works without a network, from any folder', 
     await page.goto('about:blank');
     await page.goto(`${host.address}${hash}`);
     await isReady(page);
-    // A link that cannot be read, too, leaves nobody before an empty page.
+    // A link that cannot be read does not leave the page empty either.
     await expect(page.locator('body')).not.toHaveAttribute('data-demo', '', { timeout: 60_000 });
   }
-  // The worker of the run is kept, too: a whole map without a network.
+  // The worker of runs is kept as well: a map is made without a network.
   await runMap(page);
 });
 

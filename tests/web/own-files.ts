@@ -1,9 +1,9 @@
-/** Files of a demo as a user would have them. */
+/** The files of a demo as a user's own files. */
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { buildDemo, initSync } from '../../www/wasm/page.js';
 
-/** A file as it is chosen. */
+/** A file in the form in which a file chooser takes it. */
 export interface Upload {
   readonly name: string;
   readonly mimeType: string;
@@ -16,7 +16,7 @@ export interface OwnFiles {
   /** The mirror image of the cat. */
   readonly turned: Upload;
   readonly landmarks: Upload;
-  /** How many there are. */
+  /** The number of landmark pairs. */
   readonly pairs: number;
 }
 
@@ -25,7 +25,7 @@ export function upload(name: string, data: string | Uint8Array): Upload {
   return { name, mimeType: 'application/octet-stream', buffer: Buffer.from(data) };
 }
 
-/** The mirror image of an OBJ file: x turned, and every triangle with it. */
+/** The mirror image of an OBJ file: x is negated, and every triangle is turned. */
 function mirrored(obj: string): string {
   return obj
     .replace(/^v (\S+)/gm, (_, x: string) => `v ${-Number(x)}`)

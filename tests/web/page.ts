@@ -1,4 +1,4 @@
-/** What the tests of the page do again and again. */
+/** Actions that many tests of the page need. */
 import { existsSync, readFileSync } from 'node:fs';
 import { basename } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -10,7 +10,7 @@ const SHARED = `${ROOT}../shared`;
 export const DATA = `${SHARED}/data`;
 export const RUN_TIMEOUT = 200_000;
 
-/** Skips a test in a plain checkout. Where `../shared` is there, a file that it lacks fails the test that reads it. */
+/** Skips a test where there is no folder `../shared`. Where there is one, a file that it lacks fails the test that reads the file. */
 export function needsSharedData(): void {
   test.skip(
     !existsSync(SHARED),
@@ -25,7 +25,7 @@ export function fail(message: string): never {
 /** The smallest closed mesh, as OBJ: the corner of a box with three lengths of edges. */
 export const TETRAHEDRON = 'v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n';
 
-/** Waits for what the body says of the page. Asked often: the usual intervals grow to a second, which many tests would wait for. */
+/** Waits for an attribute of the body. It is read often: the usual intervals grow to a second, which many tests would have to wait. */
 async function expectSaid(page: Page, attribute: string, words: RegExp, timeout: number): Promise<void> {
   await expect.poll(async () => (await page.locator('body').getAttribute(attribute)) ?? '', { intervals: [50], timeout }).toMatch(words);
 }
@@ -42,7 +42,7 @@ export async function openDemo(page: Page, hash = '#demo=horse-cat'): Promise<vo
   await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
 }
 
-/** Opens a step's panel; it stays open where it is. */
+/** Opens a step's panel, unless it is open already. */
 export async function openStep(page: Page, step: 'meshes' | 'landmarks' | 'map' | 'use' | 'method'): Promise<void> {
   const button = page.locator(`#step-${step}`);
   const isOpen = (await button.getAttribute('aria-current')) === 'step' && (await page.locator('#panel .content').isVisible());
@@ -52,12 +52,12 @@ export async function openStep(page: Page, step: 'meshes' | 'landmarks' | 'map' 
   await expect(page.locator('#panel .content')).toBeVisible();
 }
 
-/** The rows of the whole pairs. */
+/** The rows of the pairs that have both points. */
 export function pairs(page: Page): Locator {
   return page.locator('#landmark-list [data-pair]');
 }
 
-/** Drops files on the page as a user does. */
+/** Drops files on the page like a user. */
 export async function drop(page: Page, paths: readonly string[]): Promise<void> {
   await dropContents(
     page,
@@ -65,7 +65,7 @@ export async function drop(page: Page, paths: readonly string[]): Promise<void> 
   );
 }
 
-/** Drops files that are on no disk. */
+/** Drops files that are not on a disk. */
 export async function dropContents(page: Page, given: readonly { readonly name: string; readonly content: Buffer | string }[]): Promise<void> {
   const files = given.map(({ name, content }) => ({ name, base64: Buffer.from(content).toString('base64') }));
   const transfer = await page.evaluateHandle((list) => {
@@ -80,7 +80,7 @@ export async function dropContents(page: Page, given: readonly { readonly name: 
   await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
 }
 
-/** Waits for the end of a run, which must have gone well. */
+/** Waits for the end of a run, which must have succeeded. */
 export async function finished(page: Page): Promise<void> {
   await expectSaid(page, 'data-state', /done|error/, RUN_TIMEOUT);
   await expect(page.locator('#error')).toBeHidden();
@@ -93,7 +93,7 @@ export async function runMap(page: Page): Promise<void> {
   await expect(page.locator('#result')).toContainText(/Certified bijective: 0 of [\d,]+ triangles flipped/);
 }
 
-/** Chooses what the surfaces show, on the canvas. */
+/** Chooses what the surfaces show, in the menu on the view. */
 export async function showSurface(page: Page, name: string): Promise<void> {
   await page.getByRole('button', { name: /^Picture: / }).click();
   await page.getByRole('radio', { name, exact: true }).check();

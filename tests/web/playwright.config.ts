@@ -5,26 +5,26 @@ import { defineConfig } from '@playwright/test';
 import { freePort } from './free-port.ts';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
-/** A Chromium that is there; without one, Playwright's own. */
+/** A Chromium that is installed; where there is none, Playwright's own is used. */
 const chromium = process.env['CHROMIUM'] ?? '/usr/bin/chromium';
 
-// The workers inherit the first choice.
+// The workers inherit the port from the first process.
 process.env['CONEMAP_TEST_PORT'] ??= String(await freePort());
 const address = `http://127.0.0.1:${process.env['CONEMAP_TEST_PORT']}/`;
 
-/** What this browser does for itself, and takes processor time with. The list is in place of Playwright's own, and repeats it. */
+/** Features of this browser that only take processor time from the tests. The list replaces Playwright's own, and so repeats it. */
 const WITHOUT = [
-  // Each window of a test would begin with two hidden pages: the popups of the address bar.
+  // With these features each window of a test would begin with two hidden pages for the popups of the address bar.
   ...['WebUIOmniboxPopup', 'WebUIOmniboxAimPopup', 'WebUIOmniboxFullPopup', 'AimEnabled', 'LensOverlay'],
   ...['AvoidUnnecessaryBeforeUnloadCheckSync', 'DestroyProfileOnBrowserClose', 'PaintHolding', 'ThirdPartyStoragePartitioning'],
   ...['AvoidCorsURLLoaderRestartOnRedirect', 'HttpsUpgrades', 'HttpsFirstBalancedModeAutoEnable', 'MediaRouter'],
   ...['OptimizationHints', 'NetworkTimeServiceQuerying', 'PreconnectToSearch'],
 ];
 
-/** Tests that measure times: they run one after the other, when the rest is done. */
+/** Tests that measure times: they run one after the other, after all others. */
 const ALONE = /@alone/;
 
-/** How the browser starts, with further switches. */
+/** The options with which the browser starts, with further switches. */
 function launched(switches: readonly string[]): LaunchOptions {
   return {
     ...(existsSync(chromium) ? { executablePath: chromium } : {}),
@@ -49,7 +49,7 @@ export default defineConfig({
   timeout: 300_000,
   globalTimeout: 2_400_000,
   expect: { timeout: 30_000 },
-  // While the one waits for what glides, the others compute: on two processors 246 s in place of 275 with two of them.
+  // While one test waits for a glide, the others compute: on two processors this takes 246 s instead of 275 s with two workers.
   workers: 3,
   forbidOnly: true,
   reporter: 'list',
@@ -57,17 +57,17 @@ export default defineConfig({
     baseURL: address,
     viewport: { width: 1280, height: 800 },
     actionTimeout: 60_000,
-    // The page's own requests are what most tests look at; those of visits without a network allow it.
+    // Most tests look at the page's own requests; tests of visits without a network allow service workers.
     serviceWorkers: 'block',
   },
   projects: [
     {
       name: 'together',
       grepInvert: ALONE,
-      // Only the canvas needs the emulated graphics card, which is slow: the page around it is put together without.
+      // Only the canvas needs the emulated graphics card, which is slow; the page around it is composited without it.
       use: { launchOptions: launched(['--disable-gpu-compositing']) },
     },
-    // What measures times has the page put together as usual: without the card each frame of the canvas is read back, in a long task.
+    // For measurements of time the page is composited as usual: without the card each frame of the canvas is read back, in a long task.
     { name: 'alone', grep: ALONE, use: { launchOptions: launched([]) } },
   ],
   webServer: {

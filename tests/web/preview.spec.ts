@@ -1,4 +1,4 @@
-/** The map in the making: seen soon after the start, refined, gone with the end of the run. */
+/** The preview of the map that is being made: it is shown soon after the start, refined, and removed at the end of the run. */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import { keepPreviews, SETTLED } from './canvas.ts';
@@ -9,7 +9,7 @@ async function source(page: Page): Promise<Buffer> {
   if (box === null) {
     throw new Error('the view is not there');
   }
-  // Without the caption, which tells of the coarse map.
+  // The caption, which mentions the coarse map, is left out.
   return page.screenshot({ clip: { x: box.x, y: box.y + 48, width: box.width, height: box.height - 120 } });
 }
 
@@ -36,7 +36,7 @@ test('the coarse map is seen while the run goes on, and is gone with it', async 
   await page.locator('#run').click();
   await finished(page);
   await expect(coarse).toHaveCount(0);
-  // Several, each another one, by vertex of the source; the last ones differ less than the first.
+  // There are several different previews, with a place for each vertex of the source, and the last ones differ less than the first ones.
   const steps = await page.evaluate(() => {
     const previews = (Reflect.get(window, 'previews') as { places: Float32Array }[]).map(({ places }) => places);
     const between = (a: Float32Array, b: Float32Array): number =>

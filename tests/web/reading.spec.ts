@@ -1,13 +1,13 @@
-/** Files are read beside the page: it answers while a large mesh is read, can leave it, and outlives a reader that breaks. */
+/** Files are read in workers: the page can be used while a large mesh is read, can give it up, and survives a reader that breaks. */
 import type { JSHandle, Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import { dropContents, fail, open, openDemo, TETRAHEDRON } from './page.ts';
 
-/** About twice their squares are the numbers of triangles of the large meshes. */
+/** The large meshes have about twice the square of these numbers of triangles. */
 const LARGE = 320;
 const LARGER = 500;
 
-/** A dented ball with many triangles as a file to drop; it is made in the page, which is quicker than to send it there. */
+/** A dented ball with many triangles as a file to drop. It is made in the page, which is quicker than sending it there. */
 async function largeMesh(page: Page, rows: number): Promise<JSHandle<DataTransfer>> {
   return page.evaluateHandle((rows) => {
     const lines: string[] = ['v 0 0 1', 'v 0 0 -1'];
@@ -33,7 +33,7 @@ async function largeMesh(page: Page, rows: number): Promise<JSHandle<DataTransfe
   }, rows);
 }
 
-/** From now on the page counts its frames and tells its longest task, in ms. */
+/** Counts the page's frames and measures its longest task, in ms, from now on. */
 async function watch(page: Page): Promise<() => Promise<{ readonly longest: number; readonly frames: number; readonly took: number }>> {
   const watching = await page.evaluateHandle(() => {
     const seen = { longest: 0, frames: 0, begun: performance.now() };
@@ -64,7 +64,7 @@ const STATUS = '#status';
 test('a large mesh is read while the page draws its frames', { tag: '@alone' }, async ({ page }) => {
   await openDemo(page);
   const transfer = await largeMesh(page, LARGE);
-  // What the demo has begun beside the page is over.
+  // The work that the demo has begun in workers is over.
   await page.waitForTimeout(3000);
   const watched = await watch(page);
   await page.locator('#view-source').dispatchEvent('drop', { dataTransfer: transfer });
@@ -72,10 +72,10 @@ test('a large mesh is read while the page draws its frames', { tag: '@alone' }, 
   await expect(page.locator(STATUS)).not.toHaveText('Reading the files…', { timeout: 120_000 });
   const { longest, frames, took } = await watched();
   await expect(page.locator('body')).toContainText('large');
-  // A page that reads by itself has one task as long as all of it, and a frame before and after.
+  // A page that read by itself would have one task as long as the whole, with a frame before and after it.
   expect(longest, `of ${took} ms, in which it drew ${frames} frames`).toBeLessThan(took / 4);
   expect(frames).toBeGreaterThan(5);
-  // What a click needs of such a mesh is made between the frames.
+  // The data that a click on such a mesh needs is made between the frames.
   await expect(async () => {
     await page.locator('#view-source').click({ force: true });
     await expect(page.locator('#hint')).toContainText('now click the same place', { timeout: 1000 });
@@ -95,7 +95,7 @@ test('reading can be left, and what was there stays', async ({ page }) => {
   await page.keyboard.press('Escape');
   await expect(page.locator(STATUS)).not.toHaveText('Reading the files…', { timeout: 1000 });
   expect(await page.locator('.caption').allInnerTexts()).toEqual(names);
-  // The next file does not wait for the one that was left.
+  // The next file does not wait for the one that was given up.
   await dropContents(page, [{ name: 'small.obj', content: TETRAHEDRON }]);
   await expect(page.locator('body')).toContainText('small', { timeout: 10_000 });
   await expect(page.locator('#error')).toBeHidden();
@@ -104,7 +104,7 @@ test('reading can be left, and what was there stays', async ({ page }) => {
 test('a reader that breaks is told in a sentence, and the next file has a fresh one', async ({ page }) => {
   await open(page);
   await expect(page.locator('#run')).toBeEnabled({ timeout: 60_000 });
-  // It is begun with the first mesh.
+  // The reader of meshes is begun with the first mesh.
   await dropContents(page, [{ name: 'earliest.obj', content: TETRAHEDRON }]);
   await expect(page.locator('body')).toContainText('earliest');
   const reader = page.workers().find((worker) => worker.url().includes('/mesh-worker-')) ?? fail('there is no reader');

@@ -1,6 +1,6 @@
 /**
- * A restless user: random clicks, files, keys and interruptions, from a seed. Whatever they do, nothing breaks off, the page answers, and a
- * map of a demo can be made afterwards. CONEMAP_VISITS and CONEMAP_SEED choose how many visits and which.
+ * A restless user: random clicks, files, keys and interruptions, from a seed. Whatever happens, nothing breaks off, the page answers, and a
+ * map of a demo can be made afterwards. CONEMAP_VISITS and CONEMAP_SEED choose the number of visits and the first seed.
  */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
@@ -12,7 +12,7 @@ import { dropContents, fail, finished, open } from './page.ts';
 const VISITS = Number(process.env['CONEMAP_VISITS'] ?? 3);
 const SEED = Number(process.env['CONEMAP_SEED'] ?? 1);
 const STEPS = Number(process.env['CONEMAP_STEPS'] ?? 60);
-/** An action that the page does not answer by then, in ms, hangs it. */
+/** The time after which an action without an answer counts as hanging the page, in ms. */
 const ANSWER = 20_000;
 
 const BALL = rod(1);
@@ -20,7 +20,7 @@ const FILES = [
   upload('ball.obj', BALL),
   upload('rod.obj', rod(3)),
   upload('corners.json', CORNERS),
-  // Without its last lines: open.
+  // The mesh is open, because its last lines are missing.
   upload('open.obj', BALL.split('\n').slice(0, -40).join('\n')),
   upload('cut-off.obj', BALL.slice(0, 9000)),
   upload('noise.ply', new Random(7).bytes(4000)),
@@ -28,7 +28,7 @@ const FILES = [
   upload('empty.off', ''),
 ] as const;
 
-/** One red point. */
+/** A picture of one red pixel. */
 const PICTURE = {
   name: 'red.png',
   mimeType: 'image/png',
@@ -39,7 +39,7 @@ const KEYS = ['Escape', 'Escape', 'Control+z', 'Control+z', 'Control+Shift+Z', '
 
 type Action = readonly [name: string, act: () => Promise<void>];
 
-/** What the user does next. */
+/** The next action of the user. */
 function nextAction(page: Page, random: Random): Action {
   const file = random.of(FILES);
   const more = [random.of(FILES), random.of(FILES)];
@@ -85,7 +85,7 @@ async function dragCanvas(page: Page, x: number, y: number, u: number, v: number
   await page.mouse.up();
 }
 
-/** Presses one of the visible elements, as a program does: what lies over it does not matter. */
+/** Presses one of the visible elements by a script, so that it does not matter what lies over it. */
 async function press(page: Page, selector: string, pick: number): Promise<void> {
   await page.evaluate(
     ([all, k]) => {
@@ -109,7 +109,7 @@ async function slide(page: Page, pick: number): Promise<void> {
   }, pick);
 }
 
-/** Within the time, or not at all. */
+/** Fails where the work is not done within the time. */
 async function answered(page: Page, work: Promise<unknown>, name: string): Promise<void> {
   const late = new Promise<never>((_, reject) => {
     setTimeout(() => {
@@ -155,7 +155,7 @@ for (let visit = 0; visit < VISITS; visit += 1) {
       }
     }
     console.log(`seed ${seed}: steps by state ${JSON.stringify([...states])}; told: ${JSON.stringify([...sentences])}`);
-    // Sentences tell of files, never of the program.
+    // Sentences are about files, never about the program.
     for (const sentence of sentences) {
       expect(sentence).not.toMatch(/unexpected|undefined|null|NaN|\[object|panicked/i);
     }

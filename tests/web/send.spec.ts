@@ -1,4 +1,4 @@
-/** Links and project files, as their sender and their receiver use them. */
+/** Links and project files as their senders and receivers use them. */
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import type { Page, Request } from '@playwright/test';
@@ -10,7 +10,7 @@ import { staticHost } from './static-host.ts';
 
 const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
 
-/** A closed surface in few lines: an octahedron, pulled to this height. */
+/** A closed surface in a few lines: an octahedron, stretched to this height. */
 function octahedron(height: number): string {
   const vertices = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, height], [0, 0, -height]];
   const faces = [[1, 3, 5], [3, 2, 5], [2, 4, 5], [4, 1, 5], [3, 1, 6], [2, 3, 6], [4, 2, 6], [1, 4, 6]];
@@ -22,13 +22,13 @@ const LION = octahedron(2);
 const PAIRS = JSON.stringify({ pairs: [[0, 0], [1, 1], [2, 2], [{ face: 3, barycentric: [0.2, 0.3, 0.5] }, 4]], labels: ['a', 'b', '', 'd'] });
 
 async function open(page: Page, address: string): Promise<void> {
-  // The same address with another hash would be no new visit.
+  // An address that differs only behind the `#` would be no new visit.
   await page.goto('about:blank');
   await page.goto(address);
   await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
 }
 
-/** The link that the Share button gives, and what it says of its receiver. */
+/** The link of the Share button, and the sentence about its receiver. */
 async function share(page: Page): Promise<{ readonly url: string; readonly sentence: string }> {
   await page.getByRole('button', { name: 'Share', exact: true }).click();
   const field = page.locator('#link');
@@ -47,7 +47,7 @@ function linkIn(url: string): Link {
   return reading.link;
 }
 
-/** Whether two links say the same, but for the rounding of cameras. */
+/** Checks that two links have the same content, up to the rounding of cameras. */
 function expectSame(one: Link, other: Link): void {
   const still = (link: Link): Link => ({ ...link, work: link.work && { ...link.work, cameras: [null, null] } });
   expect(still(one)).toEqual(still(other));
@@ -59,7 +59,7 @@ function expectSame(one: Link, other: Link): void {
   }
 }
 
-/** A host that gives meshes and landmarks to every page that asks; what it is asked is noted. */
+/** A host that gives meshes and landmarks to every page; its requests are recorded. */
 async function otherHost(page: Page): Promise<Request[]> {
   const asked: Request[] = [];
   const files: Readonly<Record<string, string>> = { '/cat.obj': CAT, '/lion.obj': LION, '/pairs.json': PAIRS };
@@ -104,7 +104,7 @@ test('a link reopens landmarks, options, cameras and picture', async ({ page, co
   for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowUp', '+']) {
     await page.keyboard.press(key);
   }
-  // A camera is told when it has come to rest.
+  // The page stores a camera when it has come to rest.
   await page.waitForTimeout(2000);
   const { url, sentence } = await share(page);
   expect(sentence).toContain('needs cat.obj and lion.obj as well');
@@ -122,12 +122,12 @@ test('a link reopens landmarks, options, cameras and picture', async ({ page, co
   await expect(page.getByRole('button', { name: 'Copied' })).toBeVisible();
   expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(url);
 
-  // Whoever opens it has another browser; another tab is near enough.
+  // A receiver has another browser; another tab is close enough to that.
   page = await context.newPage();
   await open(page, url);
   const notice = page.locator('#link-notice');
   await expect(notice).toContainText('This link needs cat.obj and lion.obj: drop them here.');
-  // One with the right name alone is told from the right one.
+  // A file that has only the right name is distinguished from the right one.
   await dropContents(page, [{ name: 'cat.obj', content: octahedron(3) }]);
   await expect(page.locator('#error')).toContainText('cat.obj is not a file of this link. The name fits, but the content differs.');
   await dropContents(page, [{ name: 'renamed.obj', content: LION }]);
@@ -137,7 +137,7 @@ test('a link reopens landmarks, options, cameras and picture', async ({ page, co
   await expect(notice).toBeHidden();
   await expect(page.locator('#view-source')).toContainText('cat.obj');
   await expect(page.locator('#view-target')).toContainText('lion.obj');
-  // The address is clean again, so that a reload does not undo what follows.
+  // The link is removed from the address, so that a reload does not undo what follows.
   expect(new URL(page.url()).hash).toBe('');
   expectSame(linkIn((await share(page)).url), sent);
 });
@@ -151,7 +151,7 @@ test('a link to another host asks first, and can be refused', async ({ page }) =
   expect(asked).toHaveLength(0);
   await notice.getByRole('button', { name: 'Don’t load' }).click();
   await expect(notice).toBeHidden();
-  // What a stranger sees.
+  // The page shows what a new visitor sees.
   await expect(page.locator('body')).not.toHaveAttribute('data-demo', '', { timeout: 60_000 });
   expect(asked).toHaveLength(0);
   expect(page.url()).not.toContain('data.example');
@@ -170,7 +170,7 @@ test('a link to another host brings its meshes after one click, without a word a
     expect(headers['cookie']).toBeUndefined();
     expect(headers['referer']).toBeUndefined();
   }
-  // It can be sent on, and says what it is.
+  // The link can be shared again, and the sentence says what its receiver will see.
   const { url, sentence } = await share(page);
   expect(sentence).toContain('sees everything, after one click that loads the meshes from data.example');
   expect(linkIn(url).work?.pairs).toHaveLength(4);
@@ -281,7 +281,7 @@ test('the picture of the views has twice the pixels of the screen', async ({ pag
   await page.getByRole('button', { name: 'Picture of the views' }).click();
   const bytes = readFileSync(await (await download).path());
   expect([bytes.readUInt32BE(16), bytes.readUInt32BE(20)]).toEqual(canvas.map((side) => 2 * side));
-  // One colour would pack into far less.
+  // A picture of one colour would be much smaller.
   expect(bytes.length).toBeGreaterThan(20_000);
   await expect
     .poll(() => page.locator('#canvas').evaluate((element: HTMLCanvasElement) => [element.width, element.height]))

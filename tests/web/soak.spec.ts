@@ -1,13 +1,13 @@
-/** Many maps in one page: what the browser holds for it stays. */
+/** Many maps in one page: the memory that the browser holds for the page does not grow. */
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { expect, test } from './test.ts';
 import { finished, openDemo, openStep } from './page.ts';
 
 const MAPS = Number(process.env['CONEMAP_SOAK'] ?? 40);
-/** After as many the memory should stay. */
+/** The number of maps after which the memory should no longer grow. */
 const WARM = 10;
 
-/** MiB in memory of the largest process that draws and computes a page; its workers are threads of it. */
+/** The memory in MiB of the largest renderer process; the page's workers are threads of it. */
 function held(): number {
   const renderers = readdirSync('/proc').filter((name) => {
     try {
@@ -34,7 +34,7 @@ test('forty maps in one page take no more memory than ten', { tag: ['@long', '@a
     await page.locator('#run').click();
     await expect(page.locator('body')).toHaveAttribute('data-state', 'running');
     await finished(page);
-    // What is only not yet collected is not held.
+    // Memory that has only not been collected yet does not count.
     await session.send('HeapProfiler.collectGarbage');
     sizes.push(Math.round(held()));
     const { usedSize } = await session.send('Runtime.getHeapUsage');

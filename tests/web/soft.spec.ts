@@ -1,4 +1,4 @@
-/** Soft landmarks: their points on the target settle when the map is made, and one step takes that back. */
+/** Soft landmarks: their points on the target settle when the map is made, and one step undoes that. */
 import { readFileSync } from 'node:fs';
 import { expect, test } from './test.ts';
 import { openDemo, openStep, pairs, ROOT, runMap } from './page.ts';

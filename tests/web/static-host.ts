@@ -1,4 +1,4 @@
-/** A plain static web server, such as any host is: files of a folder under a path of their own, and what a test adds. */
+/** A plain static web server like any host: it serves the files of a folder under a path, and further answers that a test adds. */
 import { createReadStream, statSync } from 'node:fs';
 import type { IncomingMessage, ServerResponse } from 'node:http';
 import { createServer } from 'node:http';
@@ -14,15 +14,15 @@ const TYPES: Readonly<Record<string, string>> = {
   '.webmanifest': 'application/manifest+json',
 };
 
-/** Answers a path of its own. */
+/** The answer to a further path. */
 export type Extra = (request: IncomingMessage, response: ServerResponse) => void;
 
 export interface StaticHost {
-  /** Where the page is, with a slash at the end. */
+  /** The address of the page, with a slash at the end. */
   readonly address: string;
-  /** Paths that were asked for, in order. */
+  /** The paths that were requested, in order. */
   readonly asked: readonly string[];
-  /** From now on this folder is served. */
+  /** Serves this folder from now on. */
   serve(folder: string): void;
   close(): Promise<void>;
 }

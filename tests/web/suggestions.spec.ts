@@ -12,7 +12,7 @@ test('suggestions are taken one by one and all at once', async ({ page }) => {
   await page.waitForTimeout(500);
   await page.screenshot({ path: `${ROOT}test-results/suggestions.png` });
 
-  // A ring by a click, then its place on the target by a ring and the keyboard.
+  // A ring is taken by a click, and then its partner on the target by a ring and the keyboard.
   const rows = pairs(page);
   const visible = rings.locator('visible=true');
   await visible.first().click();
@@ -24,7 +24,7 @@ test('suggestions are taken one by one and all at once', async ({ page }) => {
   await page.keyboard.press('Enter');
   await expect(rows).toHaveCount(1);
 
-  // The rest at once: every pick on the target brings the next point.
+  // The rest is taken at once: each pick on the target brings up the next point.
   await page.getByRole('button', { name: 'Take all 11' }).first().click();
   await expect(rings).toHaveCount(0);
   await expect(page.locator('#hint')).toContainText('10 more wait');

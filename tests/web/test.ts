@@ -1,11 +1,11 @@
-/** The tests of the page, in which it does not warm the core unless that is asked for: each would pay two seconds for it. */
+/** The tests of the page, in which the page does not warm up the core unless a test asks for it: each would spend two seconds on it. */
 import type { BrowserContext } from '@playwright/test';
 import { test as usual } from '@playwright/test';
 
 export { expect } from '@playwright/test';
 
 interface Choices {
-  /** Whether the page lets the browser optimise the core by a small map while nobody has asked for one. */
+  /** Whether the page lets the browser optimise the core by making a small map unasked. */
   readonly warmsCore: boolean;
 }
 
@@ -19,7 +19,7 @@ export const test = usual.extend<Choices>({
   },
 });
 
-/** Has each page of the context take a worker that does nothing for the one that warms the core. */
+/** Replaces the worker that warms up the core, on each page of the context, by one that does nothing. */
 async function withoutWarmUp(context: BrowserContext): Promise<void> {
   await context.addInitScript(() => {
     globalThis.Worker = new Proxy(Worker, {

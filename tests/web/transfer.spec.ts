@@ -1,4 +1,4 @@
-/** What belongs to one mesh, brought onto the other in the step Use: values there and back, curves, poses, a texture; and what is refused. */
+/** The step Use brings what belongs to one mesh onto the other: values there and back, curves, poses, a texture; and refused files. */
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
@@ -40,7 +40,7 @@ function demo(): Demo {
   return { meshes: [meshOf(built.source()), meshOf(built.target())], landmarks: built.landmarks() };
 }
 
-/** A mesh's file with texture coordinates, told by face and corner. */
+/** A mesh's file with texture coordinates, which `chart` gives for each face and corner. */
 function withCharts({ points, faces }: Mesh, chart: (face: number, corner: number, point: Point) => readonly [number, number]): string {
   const places = points.map((point) => `v ${point.join(' ')}`);
   const charts = faces.flatMap((face, f) => face.map((v, k) => `vt ${chart(f, k, points[v - 1] ?? fail('no such vertex')).join(' ')}`));
@@ -48,7 +48,7 @@ function withCharts({ points, faces }: Mesh, chart: (face: number, corner: numbe
   return [...places, ...charts, ...corners, ''].join('\n');
 }
 
-/** Each face in a cell of its own. */
+/** The mesh with each face in a cell of its own in the texture. */
 function cells(mesh: Mesh): string {
   const columns = Math.ceil(Math.sqrt(mesh.faces.length));
   const corners = [[0.1, 0.1], [0.9, 0.1], [0.1, 0.9]] as const;
@@ -58,7 +58,7 @@ function cells(mesh: Mesh): string {
   });
 }
 
-/** The whole mesh seen from the front. */
+/** The mesh with texture coordinates by its view from the front. */
 function seenFromFront(mesh: Mesh): string {
   const size = Math.max(...mesh.points.flat().map(Math.abs));
   return withCharts(mesh, (_f, _k, [x, y]) => [0.5 + (0.45 * x) / size, 0.5 + (0.45 * y) / size]);
@@ -109,7 +109,7 @@ interface Saved {
   readonly bytes: Buffer;
 }
 
-/** Presses a button; the file that it saves. */
+/** Presses a button, and returns the file that it saves. */
 async function saved(button: string): Promise<Saved> {
   const download = page.waitForEvent('download');
   await panel().getByRole('button', { name: button, exact: true }).click();
@@ -120,7 +120,7 @@ async function saved(button: string): Promise<Saved> {
   return { name: file.suggestedFilename(), bytes: readFileSync(path) };
 }
 
-/** The second column of a table with a heading. */
+/** The second column of a table, without its heading. */
 function column(table: Buffer): number[] {
   return table.toString().trim().split('\n').slice(1).map((line) => Number(line.split(',')[1]));
 }
@@ -161,7 +161,7 @@ test('labels are not mixed, and a PLY file has them on the mesh', async () => {
 });
 
 test('a curve comes onto the other mesh', async () => {
-  // Along the edges of a face.
+  // A curve along the edges of a face.
   const face = TARGET.faces[0] ?? fail('no face');
   await choose([upload('ring.obj', `g ring\nl ${[...face, face[0]].join(' ')}\n`)], 'ring.obj: curves on the target.');
   const file = await saved('Bring onto the source');
@@ -235,7 +235,7 @@ test('what does not fit is told with its file and line, and nothing is lost', as
     [upload('letter.txt', 'Dear reader\nthis is no table\n')],
     'letter.txt: Nothing in it can be brought across: give values as a table (CSV) or PLY, curves as OBJ lines, CSV or JSON, a texture as PNG, or the mesh in other poses.',
   );
-  // What was chosen before is still there.
+  // The files that were chosen before are still there.
   await expect(panel().locator('.bring-kind')).toContainText('words.csv');
   await refused([upload('empty.csv', '')], 'empty.csv: The file is empty.');
   await refused([upload('a.obj', TARGET.obj), upload('b.csv', 'height\n1\n')], 'b.csv: several files at once must be one mesh in several poses, and this is none. Bring it alone.');
@@ -258,7 +258,7 @@ test('files that are dropped on the section are for it, and not for the views', 
   await page.dispatchEvent('.bring-drop', 'drop', { dataTransfer: transfer });
   await expect(panel().locator('.bring-kind')).toHaveText('dot.csv: curves on the target.');
   await expect(page.locator('#error')).toBeHidden();
-  // It stays while another step is open.
+  // The choice stays while another step is open.
   await openStep(page, 'map');
   await openStep(page, 'use');
   await expect(panel().locator('.bring-kind')).toHaveText('dot.csv: curves on the target.');
@@ -276,7 +276,7 @@ test('files that are dropped on the section are for it, and not for the views', 
 
 test('what goes on is shown, and left when it is cancelled', async () => {
   await choose([upload('dots.csv', 'curve,vertex\nc,0\n')], 'dots.csv: curves on the target.');
-  // The worker's script never comes.
+  // The worker's script is never delivered.
   await page.route(/bring-worker/, () => undefined);
   let downloads = 0;
   page.on('download', () => {

@@ -1,4 +1,4 @@
-/** A wasm module in which a function does nothing but trap: what the browser sees of a panic, or of memory that ran out. */
+/** Makes a wasm module in which one function only traps, as the browser sees it at a panic, or when memory runs out. */
 
 const IMPORTS = 2;
 const EXPORTS = 7;
@@ -6,7 +6,7 @@ const CODE = 10;
 const FUNCTION = 0;
 const UNREACHABLE = 0x00;
 
-/** Reads the binary format of WebAssembly (core specification, chapter 5) from a place on. */
+/** Reads the binary format of WebAssembly (core specification, chapter 5), beginning at a place. */
 class Reader {
   readonly bytes: Uint8Array;
   at: number;
@@ -20,7 +20,7 @@ class Reader {
     return this.bytes[this.at++] ?? 0;
   }
 
-  /** A whole number in LEB128. */
+  /** Reads an integer in LEB128. */
   count(): number {
     let [value, shift] = [0, 0];
     for (;;) {
@@ -40,7 +40,7 @@ class Reader {
   }
 }
 
-/** Where a section begins. */
+/** A reader at the beginning of a section's content. */
 function section(bytes: Uint8Array, wanted: number): Reader {
   const reader = new Reader(bytes, 8);
   while (reader.at < bytes.length) {
@@ -54,7 +54,7 @@ function section(bytes: Uint8Array, wanted: number): Reader {
   throw new Error(`the module has no section ${wanted}`);
 }
 
-/** The number of an exported function. */
+/** The index of an exported function. */
 function exported(bytes: Uint8Array, wanted: string): number {
   const reader = section(bytes, EXPORTS);
   for (let left = reader.count(); left > 0; left--) {
@@ -68,10 +68,10 @@ function exported(bytes: Uint8Array, wanted: string): number {
   throw new Error(`the module exports no function ${wanted}`);
 }
 
-/** The module with a function that traps at once. */
+/** The module with the named function replaced by one that traps at once. */
 export function trapping(module: Uint8Array, name: string): Buffer {
   const bytes = Uint8Array.from(module);
-  // A module for browsers imports nothing but functions.
+  // A module for browsers imports only functions.
   const imported = section(bytes, IMPORTS).count();
   const code = section(bytes, CODE);
   code.count();
@@ -81,7 +81,7 @@ export function trapping(module: Uint8Array, name: string): Buffer {
   }
   const size = code.count();
   const end = code.at + size;
-  // Groups of local variables of one type each stay; of the instructions the last one, `end`, does.
+  // The groups of local variables stay; of the instructions only the last one, `end`, stays.
   for (let groups = code.count(); groups > 0; groups--) {
     code.count();
     code.byte();

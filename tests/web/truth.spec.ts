@@ -1,4 +1,4 @@
-/** Where the true map is known, the page tells how far a map is from it. */
+/** Where the true map is known, the page shows how far a map is from it. */
 import { expect, test } from './test.ts';
 import { openDemo, openStep, runMap, showSurface } from './page.ts';
 

@@ -1,4 +1,4 @@
-/** Cameras and pins under the hand: turned, zoomed, dragged and nudged as a user does, read off where the pins' numbers are. */
+/** Cameras and pins that a user turns, zooms, drags and nudges; the tests read where the pins' numbers are. */
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import type { Spot } from './canvas.ts';
@@ -13,7 +13,7 @@ async function open(page: Page): Promise<void> {
   await page.waitForTimeout(SETTLED);
 }
 
-/** A pin that is seen, away from all others. */
+/** The number of a visible pin that is away from all others. */
 async function lonelyPin(page: Page, view: string): Promise<string> {
   const all = [...(await heads(page, view))];
   const nearest = (index: number): number =>
@@ -26,7 +26,7 @@ async function headOf(page: Page, view: string, number: string): Promise<Spot> {
   return (await heads(page, view)).get(number) ?? fail(`pin ${number} of ${view} is not seen`);
 }
 
-/** How soon after it was told a coarse map is drawn, in ms. */
+/** The longest time between the arrival of a coarse map and its drawing, in ms. */
 const DRAWN_AFTER = 500;
 
 test('frames are drawn only when something is seen to change', async ({ page }) => {
@@ -37,7 +37,7 @@ test('frames are drawn only when something is seen to change', async ({ page }) 
   await page.waitForTimeout(1500);
   expect((await drawn(page)).calls).toBe(0);
 
-  // A run tells its progress in words: a frame is drawn for a coarse map alone.
+  // A run reports its progress in words, so that a frame is drawn only for a coarse map.
   await page.locator('#run').click();
   await expect(page.locator('body')).toHaveAttribute('data-state', 'running');
   await drawn(page);
@@ -48,7 +48,7 @@ test('frames are drawn only when something is seen to change', async ({ page }) 
   expect(at.filter((time) => !told.some((preview) => time >= preview && time < preview + DRAWN_AFTER))).toEqual([]);
   await expect(page.locator('body')).toHaveAttribute('data-state', 'done', { timeout: 200_000 });
 
-  // The plain view draws the user's own triangles, and the map's many more only where they are asked for.
+  // The plain view draws the user's own triangles; the map's, which are many more, are drawn only where they are needed.
   await showSurface(page, 'Plain');
   await page.waitForTimeout(SETTLED);
   await drawn(page);
@@ -67,7 +67,7 @@ test('the cameras turn together and glide', { tag: '@long' }, async ({ page }) =
   await open(page);
   const before = [await heads(page, '#view-source'), await heads(page, '#view-target')] as const;
   const box = (await page.locator('#view-source').boundingBox()) ?? fail('no box');
-  // On the ground beside the body nothing is taken.
+  // On the ground beside the body no pin is taken.
   await page.mouse.move(box.x + 8, box.y + box.height - 30);
   await page.mouse.down();
   await page.mouse.move(box.x + 48, box.y + box.height - 30, { steps: 4 });
@@ -77,7 +77,7 @@ test('the cameras turn together and glide', { tag: '@long' }, async ({ page }) =
     const moved = moves(before[index] ?? fail('no view'), await heads(page, view));
     expect(Math.max(...moved), view).toBeGreaterThan(5);
   }
-  // Back as at the start: the pins are where they were.
+  // After the reset the pins are where they were at first.
   await page.locator('#view-source').focus();
   await page.keyboard.press('0');
   await page.waitForTimeout(SETTLED);
@@ -100,7 +100,7 @@ test('the wheel brings nearer what is under the mouse, which stays there', { tag
   await page.waitForTimeout(SETTLED);
   const after = await heads(page, '#view-source');
   expect(distance(head, after.get(number) ?? fail('gone'))).toBeLessThan(4);
-  // All others go away from it.
+  // All other pins move away from it.
   const base = { x: head.x, y: head.y + STEM };
   const grown = [...after].filter(([other]) => other !== number && before.has(other)).map(([other, spot]) => {
     const old = before.get(other) ?? fail('not seen');
@@ -123,7 +123,7 @@ test('a double click brings a place to the middle, and a click alone still picks
   expect(Math.abs(before.y + STEM - middle.y)).toBeLessThan(2);
   await page.mouse.dblclick(middle.x - 25, middle.y);
   await page.waitForTimeout(SETTLED);
-  // No second point, and the first one moved to the right with the place that is in the middle now.
+  // There is no second point; the first one has moved to the right, since the double click has brought another place to the middle.
   await expect(page.locator('#view-source .labels span:visible')).toHaveCount(1);
   const after = await headOf(page, '#view-source', '1');
   expect(after.x - before.x).toBeGreaterThan(10);
@@ -172,7 +172,7 @@ test('a pin that was clicked obeys the keys', { tag: '@long' }, async ({ page })
   expect(await step()).toBeLessThan(2);
   await page.keyboard.press('Delete');
   await expect(page.locator('#landmark-list [data-pair]')).toHaveCount(pairs - 1);
-  // The next one is selected; let go, the arrow keys turn again.
+  // The next pair is selected; after it is deselected, the arrow keys turn the view again.
   await page.keyboard.press('Escape');
   await expect(page.locator('#view-source .labels .raised')).toHaveCount(0);
   const before = await heads(page, '#view-source');

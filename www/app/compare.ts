@@ -4,7 +4,7 @@ import type { OtherMap, Report } from '../report.ts';
 import type { Store } from '../store/store.ts';
 import { startOtherMap } from './watch.ts';
 
-/** Holds the worker. */
+/** Owns the worker that makes the other map. */
 export class Comparer {
   readonly #store: Store;
   readonly #core: () => Core | null;
@@ -14,7 +14,7 @@ export class Comparer {
     this.#store = store;
     this.#core = core;
     store.subscribe(({ comparison }, previous) => {
-      // Whatever ends the wish on the page ends the worker.
+      // Whatever withdraws the comparison on the page also ends the worker.
       const isWanted = comparison?.progress.kind === 'computing' && comparison.which === previous.comparison?.which;
       if (previous.comparison?.progress.kind === 'computing' && !isWanted) {
         this.#end();
@@ -22,7 +22,7 @@ export class Comparer {
     });
   }
 
-  /** Compares the map on the page with another one, or with none any more. */
+  /** Compares the map on the page with another one; `null` ends the comparison. */
   choose(which: OtherMap | null): void {
     const { dispatch } = this.#store;
     if (which === null) {
@@ -42,7 +42,7 @@ export class Comparer {
 
   #start(core: Core, which: OtherMap): void {
     const { dispatch } = this.#store;
-    // The same map may have been asked for once more.
+    // A worker that still makes the same map is ended first.
     this.#end();
     this.#end = startOtherMap(
       this.#store,

@@ -1,4 +1,4 @@
-/** Files that are dropped, chosen or pasted: for a link that waits for them, a project, or meshes, landmarks and maps. */
+/** Opens files that were dropped, chosen or pasted: for a link that waits for them, as a project, or as meshes, landmarks and maps. */
 import type { Side } from '../landmarks.ts';
 import { isProject } from '../send/project.ts';
 import type { Store } from '../store/store.ts';
@@ -10,7 +10,10 @@ import { errorOf } from './task.ts';
 
 const PROJECT = /\.zip$/i;
 
-/** By page the reading of what was brought last, as long as it lasts. It never fails: what comes next waits for its end alone. */
+/**
+ * For each page the promise that it has read the latest files, while it reads them. It never rejects: the files that follow only wait for
+ * its end.
+ */
 const LAST = new WeakMap<Store, Promise<void>>();
 
 interface Places extends Openers {
@@ -18,8 +21,8 @@ interface Places extends Openers {
 }
 
 /**
- * Brings files where they belong; `side` is the view they were dropped on or chosen for. What comes while other files are read waits for
- * these, so that none is lost; what was refused among these stays told.
+ * Opens files for the place that they belong to; `side` is the view they were dropped on or chosen for. Files that come while others are
+ * being read wait for these, so that none is lost; an error about the earlier files stays on the page beside one about the later files.
  */
 export async function openDropped(store: Store, places: Places, files: readonly File[], side: Side | null): Promise<void> {
   const before = LAST.get(store);
@@ -38,7 +41,7 @@ export async function openDropped(store: Store, places: Places, files: readonly 
 async function openAfter(before: Promise<void>, store: Store, places: Places, files: readonly File[], side: Side | null): Promise<void> {
   await before;
   const { error: refused, job } = store.state;
-  // Something else that was begun meanwhile was wanted last.
+  // The user has begun another task since, and it takes precedence over these files.
   if (job.kind === 'busy') {
     return;
   }

@@ -1,12 +1,12 @@
-/** Begins to look for landmarks by itself where the user's two meshes came without any; the first click on a mesh ends that. */
+/** Begins a search for landmarks unasked where the user's two meshes came without any; the first click on a mesh ends the search. */
 import { canSearch } from '../store/search.ts';
 import type { MeshFile, State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 
-/** Meshes of more faces are asked for by a click: the search takes a second for every few thousand. */
+/** The most faces of a mesh for which the search begins unasked: it takes a second for every few thousand faces. */
 const MOST_FACES = 100_000;
 
-/** Starts a search for every two meshes that come without landmarks, when the page is at rest again. */
+/** Calls `start` once for every two meshes that come without landmarks, when the page is at rest again. */
 export function findUnasked(store: Store, start: () => void): void {
   const ofDemos = new WeakSet<MeshFile>();
   const isBare = ({ meshes, pairs, awaited }: State): boolean =>
@@ -20,7 +20,7 @@ export function findUnasked(store: Store, start: () => void): void {
       state.meshes.filter((file) => file !== null).forEach((file) => ofDemos.add(file));
     }
     if (state.meshes !== previous.meshes) {
-      // Those that come back by undo and redo were looked at before.
+      // Meshes that come back by undo and redo were looked at before.
       waiting = seen.has(state.meshes) ? null : state.meshes;
       seen.add(state.meshes);
     }
@@ -29,7 +29,7 @@ export function findUnasked(store: Store, start: () => void): void {
     }
     waiting = null;
     if (isBare(state)) {
-      // The change that is being told comes first.
+      // The search starts only after the store has told all listeners of the present change.
       queueMicrotask(start);
     }
   });

@@ -7,7 +7,7 @@ import { landmarkFileOf } from '../store/landmark-file.ts';
 import { canSearch } from '../store/search.ts';
 import type { Store } from '../store/store.ts';
 
-/** Holds the worker of the search. */
+/** Owns the worker of the search. */
 export class Finder {
   readonly #store: Store;
   readonly #core: () => Core | null;
@@ -17,14 +17,14 @@ export class Finder {
     this.#store = store;
     this.#core = core;
     store.subscribe(({ matching }, previous) => {
-      // Whatever ends the search on the page ends the worker.
+      // Whatever ends the search on the page also ends the worker.
       if (previous.matching?.kind === 'searching' && matching?.kind !== 'searching') {
         this.#end();
       }
     });
   }
 
-  /** Looks for landmarks of the meshes on the page; the whole pairs that are there are held. */
+  /** Looks for landmarks of the meshes on the page; pairs that have both points are held. */
   start(): void {
     const { state, dispatch } = this.#store;
     const [source, target] = state.meshes;
@@ -34,7 +34,7 @@ export class Finder {
     }
     dispatch({ kind: 'search-begun' });
     const landmarks = JSON.stringify(landmarkFileOf(state));
-    // The first change of meshes or pairs ends the worker, so that what it says is about what is on the page.
+    // The first change of meshes or pairs ends the worker, so that its answer is always about what is on the page.
     this.#end = startMatch(
       { module, source: source.bytes, target: target.bytes, landmarks },
       {

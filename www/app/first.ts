@@ -1,4 +1,4 @@
-/** What is on the page before anybody puts something there: what its address names, else the first demo. */
+/** Chooses what the page shows before the user opens anything: what the address names, else the first demo. */
 import type { Reader } from '../reading/reader.ts';
 import type { Demo } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
@@ -22,19 +22,19 @@ export class First {
     return meshes.every((file) => file === null) && receiving.kind === 'nothing' && job.kind === 'idle';
   }
 
-  /** The demo that the address names, or the first one where it names nothing; `null` where something else is to come. */
+  /** The demo that the address names, or the first one where it names nothing; `null` where the address names something else. */
   expected(demos: readonly Demo[]): Demo | null {
     const { named } = this.#links;
     return (named === null ? demos[0] : demos.find(({ id }) => id === named)) ?? null;
   }
 
-  /** Opens the demo that a stranger sees first; whether it has come. */
+  /** Opens the demo that a new visitor sees first; returns whether it has come. */
   async open(demos: readonly Demo[]): Promise<boolean> {
     const [first] = demos;
     return first !== undefined && openDemo(this.#store, this.#reader, first.id);
   }
 
-  /** Shows what the address names, else the first demo, where nobody has put anything else there. */
+  /** Shows what the address names, else the first demo, unless the user has already put something on the page. */
   async show(demos: readonly Demo[]): Promise<void> {
     const { job, history } = this.#store.state;
     if (job.kind !== 'idle' || history.past.length > 0) {
@@ -42,7 +42,7 @@ export class First {
     }
     const followed = await this.#links.follow();
     const { error } = this.#store.state;
-    // Who comes by a link that brings nothing sees what a stranger sees, and why.
+    // A visitor whose link brings nothing sees the first demo, and a sentence that says why.
     if (this.isMissing() ? await this.open(demos) : followed === 'opened') {
       this.#store.dispatch({ kind: 'history-begun' });
     }

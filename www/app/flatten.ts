@@ -1,4 +1,4 @@
-/** Computes the flows of the map on the page in a worker of their own, as soon as a heat map shows what they tell. */
+/** Computes the flows of the map on the page in a worker of their own, as soon as a heat map needs their values. */
 import type { Core } from '../compute/core.ts';
 import { USUAL_SCHEME } from '../options.ts';
 import { wantsFlows } from '../store/flat.ts';
@@ -7,7 +7,7 @@ import type { Flattening } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { startFlowing } from './watch.ts';
 
-/** Holds the worker. */
+/** Owns the worker that computes the flows. */
 export class Flattener {
   readonly #store: Store;
   readonly #core: () => Core | null;
@@ -17,12 +17,12 @@ export class Flattener {
     this.#store = store;
     this.#core = core;
     store.subscribe((state, previous) => {
-      // Whatever takes the flows off the page ends the worker.
+      // Whatever removes the flows from the page also ends the worker.
       if (previous.flattening?.progress.kind === 'computing' && state.flattening === null) {
         this.#end();
       }
       if (wantsFlows(state)) {
-        // Who listens is told of one change after the other.
+        // The listeners of the store must all have heard of this change before the next one.
         queueMicrotask(() => {
           this.#start();
         });

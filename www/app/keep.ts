@@ -1,4 +1,7 @@
-/** Keeps the work in the browser as it changes, and brings it back: after a reload at once, on a new visit when asked for. */
+/**
+ * Keeps the work in the browser's store as it changes, and brings it back: at once after a reload, and when the user asks for it on a new
+ * visit.
+ */
 import type { Failure } from '../compute/messages.ts';
 import type { NamedBytes } from '../files.ts';
 import { areMarksGood, FileRefused, meshFile } from '../files.ts';
@@ -22,24 +25,27 @@ import { perform } from './task.ts';
 
 /** What the keeper needs of the browser and the core. */
 export interface Surroundings {
-  /** Opens the store; `closed` is told when it can be used no more. */
+  /** Opens the store; calls `closed` when the store can no longer be used. */
   open(closed: () => void): Promise<Database>;
-  /** Throws where the browser has no locks. */
+  /** The tabs of the page. Throws where the browser has no locks. */
   readonly tabs: () => Tabs;
   /** What this tab remembers over a reload. */
   readonly memory: () => Pick<Storage, 'getItem' | 'setItem'>;
   readonly newId: () => string;
-  /** In ms since 1970. */
+  /** The present time in ms since 1970. */
   readonly now: () => number;
-  /** The hash of bytes; `null` where the browser gives none. */
+  /** The hash of bytes; `null` where the browser computes none. */
   readonly hash: (bytes: Uint8Array<ArrayBuffer>) => Promise<string | null>;
-  /** Reads and checks a mesh; what comes of it takes it into the page's memory, and throws `FileRefused` where it was refused. */
+  /**
+   * Reads and checks a mesh. The function that it returns takes the mesh into the page's memory, and throws `FileRefused` where it was
+   * refused.
+   */
   readonly read: (file: NamedBytes, signal: AbortSignal) => Promise<() => MeshFile>;
   /** How long changes are gathered before they are written, in ms. */
   readonly delay: number;
 }
 
-/** Whether the program that reads meshes did not come: then nothing is wrong with what was kept. */
+/** Whether a mesh could not be read because the program did not load: then nothing is wrong with the kept work. */
 function isNotThere(failure: Failure | null | undefined): boolean {
   return failure?.code === 'no-core';
 }
@@ -68,20 +74,22 @@ export function browserWith(reader: FileReader): Surroundings {
 export interface Found {
   readonly own: SessionRecord | null;
   readonly offer: Offer | null;
-  /** A sentence about what cannot be read. */
+  /** A sentence about kept work that cannot be read. */
   readonly note: string | null;
 }
 
 const NOTHING: Found = { own: null, offer: null, note: null };
-/** Where a tab remembers its session. */
+/** The key under which a tab remembers its session. */
 const MEMORY_KEY = 'conemap-session';
-/** How long a lock is waited for, in ms: a page that was just reloaded may still hold it; a tab that was copied holds it on. */
+/**
+ * How long to wait for a lock, in ms: a page that was just reloaded may still hold it for a moment, while a copied tab keeps holding it.
+ */
 const PATIENCE = 500;
 
-/** How long the store may take to open, in ms: the page does not wait for one that never does. */
+/** How long to wait for the store to open, in ms: some browsers never open it. */
 const LONGEST_OPENING = 3000;
 
-/** What is promised, if it comes in time. Throws where it does not. */
+/** The result of a promise. Throws where it takes longer than `milliseconds`. */
 function within<T>(milliseconds: number, promised: Promise<T>): Promise<T> {
   return new Promise((resolve, reject) => {
     const timer = setTimeout(() => {
@@ -93,7 +101,7 @@ function within<T>(milliseconds: number, promised: Promise<T>): Promise<T> {
   });
 }
 
-/** Whether nothing that is kept has changed. */
+/** Whether two states agree in everything that is kept. */
 function isKept(state: State, previous: State): boolean {
   const [ui, before] = [state.ui, previous.ui];
   return (
@@ -128,11 +136,11 @@ export class Keeper {
   #database: Database | null = null;
   #tabs: Tabs | null = null;
   #id = '';
-  /** Hashes of the meshes of what is written; `null` before anything is. */
+  /** Hashes of the meshes of the session as it was last written; `null` before the first writing. */
   #written: ReadonlySet<string> | null = null;
   /** Sessions of earlier visits that could be offered when the page was opened. */
   #offerable: readonly string[] = [];
-  /** The session that this one continues, until that is written. */
+  /** The earlier session that this one continues, until this one is written. */
   #absorbed: string | null = null;
   #timer: ReturnType<typeof setTimeout> | null = null;
   #writing: Promise<void> = Promise.resolve();
@@ -144,8 +152,8 @@ export class Keeper {
   }
 
   /**
-   * Finds what was kept. `linked` is the demo that the address names: a tab that comes to another one than it had begins a
-   * session of its own, and leaves the earlier one to be offered.
+   * Finds the kept work. `linked` is the demo that the address names: a tab whose address names another demo than its session has begins a
+   * new session, and the earlier one can be offered.
    */
   async find(linked: string | null): Promise<Found> {
     try {
@@ -166,7 +174,7 @@ export class Keeper {
     }
   }
 
-  /** Brings back what this tab had, and shows what can be continued; whether this tab's work is on the page now. */
+  /** Brings back this tab's work, and offers what can be continued; returns whether this tab's work is on the page now. */
   async resume({ own, offer, note }: Found): Promise<boolean> {
     const { dispatch } = this.#store;
     if (offer !== null) {
@@ -184,7 +192,7 @@ export class Keeper {
       await this.#quietly(() => this.#continueWith(own.id));
     }
     if (!isThere && this.#tabs !== null) {
-      // What comes onto the page in place of it is not written over it.
+      // The kept session could not be shown, so what comes onto the page instead must not be written over it.
       const tabs = this.#tabs;
       await this.#quietly(() => this.#begin(tabs));
     }
@@ -211,7 +219,10 @@ export class Keeper {
     }
   }
 
-  /** Neither the offered work nor what is older is asked about again; the offer stays until that is written. */
+  /**
+   * Marks the offered session and all older ones as declined, so that none is offered again; the offer stays on the page until that is
+   * written.
+   */
   async decline(): Promise<void> {
     const { offer } = this.#store.state;
     if (offer !== null) {
@@ -224,7 +235,7 @@ export class Keeper {
     }
   }
 
-  /** Writes what waits at once: the page may be about to go. Settled when it is written. */
+  /** Writes waiting changes at once, since the page may be about to close. The promise is settled when they are written. */
   flush(): Promise<void> {
     if (this.#timer !== null) {
       clearTimeout(this.#timer);
@@ -234,7 +245,7 @@ export class Keeper {
     return this.#writing;
   }
 
-  /** This tab's session and the one to offer, out of all. */
+  /** Chooses among all kept sessions this tab's own and the one to offer. */
   async #look(database: Database, tabs: Tabs, linked: string | null): Promise<Found> {
     const before = this.#around.memory().getItem(MEMORY_KEY);
     const isMine = before !== null && (await tabs.claim(before, PATIENCE));
@@ -244,7 +255,7 @@ export class Keeper {
     if (isMine && own !== null) {
       this.#id = before;
     } else {
-      // A copied tab continues with a copy; other work than this tab's leaves what it had.
+      // A copied tab continues with a copy of the session. A tab that opens other work leaves its earlier session free.
       if (isMine) {
         tabs.release(before);
       }
@@ -252,11 +263,12 @@ export class Keeper {
     }
     const open = new Set(await tabs.open());
     if (isMine && before !== this.#id) {
-      // The browser may need a moment to see that it is free.
+      // The browser may need a moment to see that the lock is free.
       open.delete(before);
     }
     if (own !== null) {
-      // A page that was reloaded may let go late, after another session was begun here: what comes onto this page is not offered.
+      // A page that was reloaded may release its lock late, after this tab has begun another session; the work that comes onto this page
+      // must not be offered as well.
       open.add(own.id);
     }
     const choice = choiceOf(await database.sessions(), open);
@@ -265,7 +277,7 @@ export class Keeper {
     return { own, offer: offerOf(choice.latest), note: noteOf(choice) };
   }
 
-  /** From now on this tab has a session of its own, of which nothing is written. */
+  /** Gives this tab a session of its own, of which nothing is written yet. */
   async #begin(tabs: Tabs): Promise<void> {
     this.#id = this.#around.newId();
     this.#written = null;
@@ -273,16 +285,19 @@ export class Keeper {
     this.#around.memory().setItem(MEMORY_KEY, this.#id);
   }
 
-  /** This tab's session goes on with the work of another one, which is on the page, and takes its place unless a tab has it open. */
+  /**
+   * Lets this tab's session go on with the work of another session, which is on the page now; the other one is removed unless a tab has it
+   * open.
+   */
   async #continueWith(id: string): Promise<void> {
     const isOpen = (await this.#tabs?.open())?.has(id) ?? false;
     this.#absorbed = isOpen ? null : id;
     this.#schedule();
   }
 
-  /** Puts a session's work onto the page; `false` where it does not come, and says why where it cannot be read. */
+  /** Puts a session's work onto the page; returns `false` where that fails, and shows a sentence where the work cannot be read. */
   async #restore(record: SessionRecord): Promise<boolean> {
-    // What the reading is found to want.
+    // `program` becomes true where reading failed because the program did not load.
     const wants = { program: false };
     const outcome = await perform(
       this.#store,
@@ -312,7 +327,7 @@ export class Keeper {
     return outcome === 'done';
   }
 
-  /** The meshes by key, read and not yet in the page's memory. */
+  /** The meshes by key. They are read, but not yet in the page's memory. */
   async #read(meshes: readonly MeshRecord[], signal: AbortSignal): Promise<ReadonlyMap<string, () => MeshFile>> {
     const read = await Promise.all(
       meshes.map(async (mesh): Promise<readonly [string, () => MeshFile]> => {
@@ -321,7 +336,7 @@ export class Keeper {
           throw new FileRefused(SENTENCES.keptUnreadable);
         }
         const { name, address, picture: hash } = mesh;
-        // Without its picture a mesh is still the mesh.
+        // A mesh whose picture is missing is shown without it.
         const picture = hash === undefined ? null : ((await this.#database?.mesh(hash)) ?? null);
         const file = { name, bytes, ...(address === undefined ? {} : { address }), ...(picture === null ? {} : { picture }) };
         return [meshKey(mesh), await this.#around.read(file, signal)];
@@ -330,7 +345,7 @@ export class Keeper {
     return new Map(read);
   }
 
-  /** The meshes by key; all or none. */
+  /** Takes the meshes into the page's memory, by key: all of them or none. */
   #taken(read: ReadonlyMap<string, () => MeshFile>): ReadonlyMap<string, MeshFile> {
     const files = new Map<string, MeshFile>();
     try {
@@ -346,7 +361,7 @@ export class Keeper {
     }
   }
 
-  /** Gives back the meshes that did not come onto the page or into its history. */
+  /** Frees the meshes that came neither onto the page nor into its history. */
   #freeUnused(files: ReadonlyMap<string, MeshFile>): void {
     const held = heldMeshes(this.#store.state.history, this.#store.state);
     for (const file of files.values()) {
@@ -362,7 +377,10 @@ export class Keeper {
     }
   }
 
-  /** Whether somebody made something: a page that only shows a demo would push out what somebody made before. */
+  /**
+   * Whether the user has made something. A page that only shows a demo is not written, since it would push out work that the user made
+   * before.
+   */
   #isMade({ history }: State): boolean {
     return this.#written !== null || this.#absorbed !== null || history.past.length + history.future.length > 0;
   }
@@ -377,7 +395,7 @@ export class Keeper {
 
   async #hashOf(bytes: Uint8Array): Promise<string> {
     const known = this.#hashes.get(bytes);
-    // What the page holds lies in its own memory, and is no buffer that threads share.
+    // The bytes lie in the page's own memory, never in a buffer that threads share.
     const hash = known ?? this.#around.hash(bytes as Uint8Array<ArrayBuffer>);
     this.#hashes.set(bytes, hash);
     const value = await hash;
@@ -415,7 +433,7 @@ export class Keeper {
     }
   }
 
-  /** Does something with the store that the user need not hear of where it fails. */
+  /** Does something with the store whose failure the user need not hear of. */
   async #quietly(action: (database: Database) => Promise<void>): Promise<void> {
     try {
       if (this.#database !== null) {
@@ -426,13 +444,13 @@ export class Keeper {
     }
   }
 
-  /** The store cannot be used any more. */
+  /** Gives the store up and says so. */
   #close(sentence: string): void {
     this.#database = null;
     this.#say(sentence);
   }
 
-  /** Says that nothing is kept, once until something is again. */
+  /** Shows a sentence that nothing is kept, once until something is kept again. */
   #say(sentence: string): void {
     if (!this.#said) {
       this.#said = true;

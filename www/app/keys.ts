@@ -1,10 +1,10 @@
-/** Keys of the whole page; those of a view are the viewer's. */
+/** The keys of the whole page; the viewer handles the keys of a view. */
 import { isTyped } from '../dom.ts';
 import { proposed } from '../store/proposal.ts';
 import type { Store } from '../store/store.ts';
 import { leaveTask } from './task.ts';
 
-/** What a key asks of the history: Ctrl+Z, and Ctrl+Shift+Z or Ctrl+Y, on a Mac with Cmd. */
+/** The step of the history that a key asks for: Ctrl+Z undoes, Ctrl+Shift+Z and Ctrl+Y redo, on a Mac with Cmd. */
 export function moveOf(event: Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' | 'shiftKey' | 'altKey'>): 'undo' | 'redo' | null {
   if (!(event.ctrlKey || event.metaKey) || event.altKey) {
     return null;
@@ -19,7 +19,7 @@ export function moveOf(event: Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' 
   }
 }
 
-/** Where no part of the page has the keys, Enter takes the place that the map proposes, and Escape drops it. */
+/** While no element of the page has the focus, Enter accepts the place that the map proposes, and Escape drops it. */
 export function listenForProposal(store: Store): void {
   window.addEventListener('keydown', (event) => {
     if (event.target !== document.body || event.ctrlKey || event.metaKey || event.altKey || proposed(store.state) === null) {
@@ -33,8 +33,8 @@ export function listenForProposal(store: Store): void {
 }
 
 /**
- * Escape leaves the task that the page is busy with, or else the map that the one on the page is compared with, but where it means
- * something else: to a text, a dialog or a view.
+ * Escape leaves the task that the page is busy with, or else ends the comparison with another map. It does neither where the key belongs to
+ * a text field, a dialog or a view.
  */
 export function listenForLeaving(store: Store): void {
   window.addEventListener('keydown', (event) => {
@@ -50,7 +50,7 @@ export function listenForLeaving(store: Store): void {
   });
 }
 
-/** The keys of the history go through the steps of the work, but in a text field through what was typed there. */
+/** The keys of the history step through the work; in a text field they step through what was typed there. */
 export function listenForUndo(store: Store): void {
   window.addEventListener('keydown', (event) => {
     const kind = moveOf(event);

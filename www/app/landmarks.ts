@@ -1,4 +1,4 @@
-/** Landmarks as files. */
+/** Saves the landmarks as files. */
 import { download } from '../dom.ts';
 import type { NamedBytes } from '../files.ts';
 import { filesOf, formatList } from '../landmark-files.ts';
@@ -11,7 +11,7 @@ import { errorOf } from './task.ts';
 /** The program's own format, which needs no mesh to be written. */
 const OWN: LandmarkFormat = 'conemap';
 
-/** The whole pairs as files of a format: one, or one for each mesh. Throws `FileRefused`. */
+/** The pairs that have both points, as files of a format: one file, or one for each mesh. Throws `FileRefused`. */
 function written(state: State, id: string): readonly NamedBytes[] {
   const landmarks = landmarkFileOf(state);
   const [source, target] = state.meshes;
@@ -22,11 +22,11 @@ function written(state: State, id: string): readonly NamedBytes[] {
   return filesOf(format, landmarks, source.mesh, target.mesh);
 }
 
-/** Saves the whole pairs in a format, by the word by which the core knows it. */
+/** Saves the pairs that have both points in a format, which is named by its id in the core. */
 export function saveLandmarks(store: Store, format: string = OWN): void {
   try {
     for (const { name, bytes } of written(store.state, format)) {
-      // A browser may change the ending of a file whose type it knows better.
+      // A browser may change the ending of a file whose type it recognises, so only JSON is named.
       download(name, name.endsWith('.json') ? 'application/json' : 'application/octet-stream', bytes.slice());
     }
   } catch (thrown) {

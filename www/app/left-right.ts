@@ -1,4 +1,4 @@
-/** Asks for the planes that mirror the meshes while left and right go together, and for the points across them. */
+/** Asks the core for the planes that mirror the meshes while left and right go together, and the views for the points across them. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 import type { FileReader } from '../reading/reader.ts';
@@ -11,10 +11,10 @@ import type { Store } from '../store/store.ts';
 import type { MeshFile } from '../store/work.ts';
 import { errorOf } from './task.ts';
 
-/** What knows which point lies across the plane of a side; `null` where none can be told. */
+/** Finds the point that lies across the plane of a side; `null` where there is none. */
 export type Mirror = (side: Side, point: SurfacePoint) => Across | null;
 
-/** What the core is asked for. */
+/** The question for the core, as JSON, that finds the chosen plane; `null` where the plane needs two pins that are not there. */
 function wishOf(state: State, side: Side, choice: PlaneChoice): string | null {
   if (choice === 'found') {
     return JSON.stringify({ kind: 'found' });
@@ -34,14 +34,14 @@ function placedBy(state: State, event: Event): { readonly side: Side; readonly p
   return event.kind === 'point-picked' || event.kind === 'point-moved' ? event : null;
 }
 
-/** An event with what lies across from the point that it places, where left and right go together. */
+/** Where left and right go together, the event with the mirror image of the point that it places; else the event itself. */
 export function completed(state: State, event: Event, mirror: Mirror): Event {
   const placed = placedBy(state, event);
   const isAsked = placed !== null && planeInUse(state, placed.side) !== null && !('across' in event);
   return isAsked ? ({ ...event, across: mirror(placed.side, placed.point) } as Event) : event;
 }
 
-/** Pairs that are there already and stand across from each other on a side. */
+/** Pairs that are already there and mirror each other on a side, by their ids. */
 function twinsOn(state: State, side: Side, mirror: Mirror): [number, number][] {
   const across = new Map<number, number | null>();
   for (const { id, points } of state.pairs) {
@@ -53,7 +53,7 @@ function twinsOn(state: State, side: Side, mirror: Mirror): [number, number][] {
   return [...across].flatMap(([a, b]) => (b !== null && a < b && across.get(b) === a ? [[a, b] as [number, number]] : []));
 }
 
-/** Holds what is known of the meshes. */
+/** Owns the planes that were found for the meshes. */
 export class Planes {
   readonly #store: Store;
   readonly #reader: FileReader;
@@ -68,7 +68,7 @@ export class Planes {
       for (const side of SIDES) {
         const file = state.meshes[side];
         if (state.leftRight.isOn && file !== null && state.leftRight.planes[side]?.of !== file) {
-          // The change that is being told comes first.
+          // The question is asked only after the store has told all listeners of the present change.
           queueMicrotask(() => {
             this.#askOnce(side, file);
           });
@@ -77,7 +77,7 @@ export class Planes {
     });
   }
 
-  /** Takes another plane for a side. */
+  /** Chooses another plane for a side. */
   choose(side: Side, choice: PlaneChoice): void {
     const of = this.#store.state.meshes[side];
     const wish = wishOf(this.#store.state, side, choice);
@@ -109,10 +109,10 @@ export class Planes {
         this.#found.set(of, answer);
       }
     } catch (thrown) {
-      // Nothing is known of the mesh then: whoever chooses the plane again has it looked for again.
+      // No plane is stored after a failure, so that choosing the plane again asks for it again.
       dispatch(errorOf(thrown));
     }
-    // Meanwhile the meshes may have changed sides, or another plane may have been chosen.
+    // The meshes may have changed sides since, or another plane may have been chosen.
     const at = SIDES.find((candidate) => this.#store.state.meshes[candidate] === of) ?? side;
     const waiting = this.#store.state.leftRight.planes[at];
     if (waiting?.of === of && waiting.choice === choice && waiting.answer === 'awaited') {
@@ -121,7 +121,7 @@ export class Planes {
     }
   }
 
-  /** Pairs that came in left and right before go together from now on. */
+  /** Links pairs that were placed before as left and right, so that they go together from now on. */
   #findTwins(side: Side): void {
     const { state, dispatch } = this.#store;
     const twins = planeInUse(state, side) === null ? [] : twinsOn(state, side, this.#mirror);

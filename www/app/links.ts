@@ -1,4 +1,4 @@
-/** Links into the page: follows the one in the address, asks what it must ask, and puts what it brings onto the page. */
+/** Follows the link in the page's address: asks the user where it must, and puts what the link brings onto the page. */
 import type { NamedBytes } from '../files.ts';
 import { eventsOfSides } from '../opening.ts';
 import { fetchSentence, LINK_REFUSED, otherFiles, SENTENCES } from '../messages.ts';
@@ -46,14 +46,14 @@ export class Links {
     });
   }
 
-  /** What the page's address names: a demo by its id, or another link by all that it says; `null` for nothing. */
+  /** What the page's address names: the id of a demo, or the whole hash of another link; `null` for nothing. */
   get named(): string | null {
     const reading = readLink(location.hash, new URL(document.baseURI));
     const isDemo = reading.kind === 'link' && reading.link.work === null && reading.link.demo !== null;
     return reading.kind === 'none' ? null : isDemo ? reading.link.demo : location.hash;
   }
 
-  /** Follows the link in the page's address. A link that must ask or wait goes on by itself, and one that is refused says why. */
+  /** Follows the link in the page's address. A link that asks or waits continues by itself later, and a refused one shows why. */
   async follow(): Promise<'none' | 'opened' | 'followed'> {
     const { state, dispatch } = this.#store;
     const reading = readLink(location.hash, new URL(document.baseURI));
@@ -73,7 +73,7 @@ export class Links {
     }
   }
 
-  /** The click that the link waits for. */
+  /** Loads the files of the link, after the click that it waits for. */
   readonly accept = (): void => {
     if (this.#store.state.job.kind === 'running') {
       this.#store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
@@ -82,7 +82,7 @@ export class Links {
     }
   };
 
-  /** Gives the link up. */
+  /** Gives the link up and removes it from the address. */
   readonly cancel = (): void => {
     forget();
     this.#receiver.cancel();
@@ -93,7 +93,7 @@ export class Links {
     return this.#receiver.receiving.kind === 'files';
   }
 
-  /** Takes the files that the link waits for, and tells them from others. */
+  /** Takes the files that the link waits for, and shows which of the given files it does not want. */
   async take(files: readonly NamedBytes[]): Promise<void> {
     const others = await this.#receiver.take(files);
     const { receiving } = this.#receiver;
@@ -108,7 +108,7 @@ export class Links {
     }
   }
 
-  /** Begins with a link; whether the demo that it names has come. */
+  /** Begins with a link; returns whether the demo that it names has come. */
   async #begin(link: Link): Promise<boolean> {
     const { demo, work } = link;
     if (demo === null) {
@@ -148,7 +148,7 @@ export class Links {
 
   async #open({ link, meshes, landmarks }: Delivery): Promise<void> {
     if (this.#store.state.job.kind === 'running') {
-      // A run has begun while the files came: the link stays in the address, to be opened by a reload.
+      // A run has begun while the files came, so the link stays in the address, and a reload opens it.
       this.#store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
       return;
     }
@@ -159,7 +159,7 @@ export class Links {
     await perform(
       this.#store,
       'Opening the link…',
-      // A link without work is like files that are dropped: nobody has agreed to a repair.
+      // A link without work is treated like dropped files: the user has not agreed to any repair.
       (signal) => readArriving(this.#reader, both, work === null ? {} : ALL_ALLOWED, signal),
       (read) => {
         if (work === null) {

@@ -1,4 +1,4 @@
-/** What is made of the map when somebody asks for it: files, a wrapped base, a proof; from its map file, in a worker of their own. */
+/** Makes files, a wrapped base or a proof of the map when the user asks for them, from its map file in a worker of their own. */
 import type { SavedMapHandle } from '../compute/saved-client.ts';
 import type { Core } from '../compute/core.ts';
 import { openSavedMap, SavedMapError } from '../compute/saved-client.ts';
@@ -9,7 +9,7 @@ import type { Result } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { errorOf, performBeside } from './task.ts';
 
-/** What a map's own worker gives for `use`. Throws `FileRefused`. */
+/** Opens a map in a worker of its own, and returns what `use` asks of it. Throws `FileRefused`. */
 export async function askMap<T>(core: Core, { output, inputs }: Result, use: (saved: SavedMapHandle) => Promise<T>): Promise<T> {
   const [source, target] = inputs.meshes;
   if (output.map === null || source === null || target === null) {
@@ -27,7 +27,7 @@ export async function askMap<T>(core: Core, { output, inputs }: Result, use: (sa
   }
 }
 
-/** A file of a map: the core's name for it, that under which it is saved, and its type. */
+/** A file of a map: the core's name for it, the name under which it is saved, and its type. */
 interface MadeFile {
   readonly made: string;
   readonly name: string;
@@ -44,7 +44,7 @@ export async function saveMadeFile(store: Store, core: Core, { made, name, type 
   }
 }
 
-/** Saves the source's own file with its vertices laid onto the target, and says what became of it. */
+/** Saves the source's own file with its vertices laid onto the target, and shows a sentence about the result. */
 export async function saveWrapped(store: Store, core: Core): Promise<void> {
   const { result } = store.state;
   const source = result?.inputs.meshes[0] ?? null;
@@ -57,7 +57,7 @@ export async function saveWrapped(store: Store, core: Core): Promise<void> {
   });
 }
 
-/** Has the map on the page proved by the program that shares nothing with what made it. */
+/** Has the map on the page proved by the second program, which is independent of the one that made the map. */
 export async function proveMap(store: Store, core: Core): Promise<void> {
   const { result } = store.state;
   if (result === null) {

@@ -1,4 +1,4 @@
-/** Maps that come from files: opened for the meshes on the page without computing, or kept until those have come. */
+/** Opens maps from files for the meshes on the page, without computing, or keeps a map until its meshes have come. */
 import type { SavedMapHandle } from '../compute/saved-client.ts';
 import type { Core } from '../compute/core.ts';
 import { openSavedMap, SavedMapError } from '../compute/saved-client.ts';
@@ -18,14 +18,14 @@ import type { State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { perform } from './task.ts';
 
-/** What becomes of landmarks and options on the page that are not those of the map. */
+/** What happens to landmarks and options on the page that are not those of the map. */
 export type Landmarks =
-  /** They give way to the map's. */
+  /** The map's replace them. */
   | 'brought'
   /** They stay, and the map is outdated. */
   | 'kept';
 
-/** Whether the page can do what a finding asks for: what a file says of vertices need not be so. */
+/** Whether the page has the vertices that a finding of a file names: a file may name any. */
 function isSound({ side, vertices }: Finding, { meshes }: Pick<State, 'meshes'>): boolean {
   const pairs = vertices.map((point, id) => ({ id, number: id, points: [point, point] as const, label: '', locked: false }));
   return side === null || areMarksGood({ meshes: side === 0 ? [meshes[0], null] : [null, meshes[1]], pairs });
@@ -43,7 +43,7 @@ function optionsOf(text: string | null): RunOptions | null {
   return text === null ? null : optionsIn(text);
 }
 
-/** What the worker has read, in the page's words. */
+/** The map that the worker has read, as the page's state holds it. */
 function taken(map: NamedBytes, { buffers, landmarks, options, isMirrored }: Opened, meshes: State['meshes']): OpenedMap {
   const report = reportOf(buffers.report, meshes);
   return {
@@ -68,7 +68,7 @@ export class Maps {
     });
   }
 
-  /** Opens a map for the meshes on the page, or keeps it for those that it was made with. */
+  /** Opens a map for the meshes on the page, or keeps it until the meshes come that it was made with. */
   async open(map: AwaitedMap, landmarks: Landmarks): Promise<void> {
     const { state, dispatch } = this.#store;
     if (missingOf(map, state.meshes).length > 0) {
@@ -146,7 +146,7 @@ export class Maps {
   #follow({ awaited, meshes, job }: State, previous: State): void {
     const isChance = meshes !== previous.meshes || job.kind !== previous.job.kind;
     if (awaited !== null && isChance && job.kind !== 'running' && missingOf(awaited, meshes).length === 0) {
-      // The next change, not one within this.
+      // The map is opened by a change of its own, after the present one.
       queueMicrotask(() => {
         if (this.#store.state.awaited === awaited) {
           void this.open(awaited, 'brought');

@@ -1,4 +1,4 @@
-/** Says on the body where the page is, for styles and tests. */
+/** Writes the state of the page into attributes of the body, for styles and tests. */
 import { wholePairs } from '../store/order.ts';
 import type { State } from '../store/state.ts';
 

@@ -1,4 +1,7 @@
-/** The way of the source to the target's shape: asked for when it is first shown; until it is there, and where there is none, lines are straight. */
+/**
+ * The way of the source to the target's shape. It is computed when it is first shown; until it has come, and where it fails, each point
+ * moves on a straight line.
+ */
 import type { Core } from '../compute/core.ts';
 import type { Way } from '../compute/saved-messages.ts';
 import { shownResult } from '../store/staleness.ts';
@@ -6,7 +9,10 @@ import type { Result } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { askMap } from './made-files.ts';
 
-/** Has the way of each map that is shown on it made once, and given to `take`; what it returns says that a way is shown from now on. */
+/**
+ * Has the way of each map computed once, when it is first shown, and gives it to `take`. The returned function asks for the way of the
+ * shown map.
+ */
 export function bendMorphs(store: Store, coreOf: () => Core | null, take: (output: Result['output'], way: Way) => void): () => void {
   const asked = new WeakSet<Result['output']>();
   const ask = async (core: Core, result: Result): Promise<void> => {
@@ -18,7 +24,7 @@ export function bendMorphs(store: Store, coreOf: () => Core | null, take: (outpu
       if (shownResult(store.state)?.output === output) {
         take(output, way);
       } else {
-        // Who comes back to that map asks again.
+        // The way is asked for again when that map comes back.
         asked.delete(output);
       }
     } catch (thrown) {
@@ -28,7 +34,7 @@ export function bendMorphs(store: Store, coreOf: () => Core | null, take: (outpu
   const want = (): void => {
     const result = shownResult(store.state);
     const core = coreOf();
-    // A map without a map file has no worker to ask.
+    // Only a map with a map file can be asked for its way.
     const isThere = (result?.output.map ?? null) !== null;
     if (isThere && result !== null && core !== null && !asked.has(result.output)) {
       asked.add(result.output);

@@ -16,7 +16,7 @@ import type { Store } from '../store/store.ts';
 import type { Maps } from './maps.ts';
 import { perform } from './task.ts';
 
-/** In bytes. The core's memory ends at 4 GiB, and holds a file beside the mesh that is made of it. */
+/** The largest file that is opened, in bytes. The core's memory ends at 4 GiB, and holds a file beside the mesh that is made of it. */
 export const LARGEST_FILE = 2 ** 30;
 
 /** The bytes of a file. Throws {@link FileRefused}. */
@@ -34,7 +34,7 @@ export async function bytesOf(file: File): Promise<NamedBytes> {
   }
 }
 
-/** Reads files, and finds out which they are. Throws {@link FileRefused}. */
+/** Reads files, and sorts them into meshes, landmarks, maps and others. Throws {@link FileRefused}. */
 async function arrivals(reader: FileReader, files: readonly NamedBytes[], signal: AbortSignal): Promise<Arrivals> {
   const sorted = await reader.ask({ kind: 'sort', files }, signal);
   const meshes = meshesAmong(sorted);
@@ -42,7 +42,7 @@ async function arrivals(reader: FileReader, files: readonly NamedBytes[], signal
   return arrivalsOf(sorted, readings);
 }
 
-/** What files are brought to the page with. */
+/** What opening files needs: the worker that reads them, and the opener of maps. */
 export interface Openers {
   readonly reader: FileReader;
   readonly maps: Pick<Maps, 'open' | 'openOfProject'>;
@@ -96,7 +96,7 @@ export function demoEvents(demo: Demo, built: DemoFiles): Event[] {
   ];
 }
 
-/** Opens a demo; `false` where it does not come onto the page, because there is none or because of something else that came. */
+/** Opens a demo; returns `false` where it does not come onto the page, because there is none or because something else came meanwhile. */
 export async function openDemo(store: Store, reader: FileReader, id: string): Promise<boolean> {
   const demo = store.state.demos.find((candidate) => candidate.id === id);
   if (demo === undefined) {
@@ -118,20 +118,20 @@ export async function openDemo(store: Store, reader: FileReader, id: string): Pr
   return outcome === 'done';
 }
 
-/** Keeps the demo's link in the address while the demo is on the page, and takes it out when other meshes have come. */
+/** Keeps the demo's link in the address while the demo is on the page, and removes it when other meshes have come. */
 export function followDemo(state: State, previous: State): void {
   if (previous.demo !== state.demo) {
     showOwnLink(state);
   }
 }
 
-/** Puts the link of the demo on the page into the address, or none. */
+/** Writes the link of the demo on the page into the address, or removes it where there is no demo. */
 export function showOwnLink({ demo }: Pick<State, 'demo'>): void {
   const link = demo === null ? '' : `#demo=${encodeURIComponent(demo.id)}`;
   history.replaceState(null, '', location.pathname + location.search + link);
 }
 
-/** Gives back the core's memory of meshes that no step leads back to. */
+/** Frees the core's memory of meshes that no step of the history leads back to. */
 export function freeForgotten(state: State, previous: State): void {
   if (state.history === previous.history && state.meshes === previous.meshes) {
     return;

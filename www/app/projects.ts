@@ -1,4 +1,4 @@
-/** Project files: everything on the page as one file, and back. */
+/** Saves everything on the page as one project file, and opens such files. */
 import { download } from '../dom.ts';
 import type { NamedBytes } from '../files.ts';
 import { FileRefused } from '../files.ts';
@@ -24,7 +24,7 @@ function projectMesh(file: MeshFile | null): ProjectMesh | null {
   return { name, bytes, address, ...(picture === undefined ? {} : { picture }) };
 }
 
-/** What is on the page as a project; the map's own file is in it where the result has one. */
+/** The state of the page as a project; the project has the map file where the result has one. */
 function projectOf(state: State): Project {
   const result = shownResult(state);
   return {

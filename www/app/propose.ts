@@ -1,4 +1,4 @@
-/** Asks the map for the partner of a half pair, so that it need only be accepted. */
+/** Asks the map where the missing point of a half pair should be, so that the user need only accept that place. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import { otherSide } from '../landmarks.ts';
 import type { Event } from '../store/events.ts';
@@ -7,14 +7,14 @@ import { isSameQuestion, questionOf } from '../store/proposal.ts';
 import type { Proposal } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 
-/** What knows the map, and shows what it proposes. */
+/** The views, which know the map and show what it proposes. */
 export interface Proposer {
-  /** Where the map takes a point of a side on the other one; `null` where it tells no place for a landmark. */
+  /** The image of a point of a side on the other side; `null` where the map gives no place for a landmark. */
   imageOf(side: Side, point: SurfacePoint): SurfacePoint | null;
   bringIntoSight(proposal: Proposal): void;
 }
 
-/** Answers a question, if it is still asked; whoever asks about another pair is shown where the answer is. */
+/** Answers a question if it is still asked; when the question is about another pair than before, the views turn to the answer. */
 function answer(store: Store, proposer: Proposer, question: Question, before: Question | null): void {
   if (!isSameQuestion(questionOf(store.state), question)) {
     return;
@@ -27,7 +27,7 @@ function answer(store: Store, proposer: Proposer, question: Question, before: Qu
   const proposal = { id, of, side, point };
   const events: Event[] = [{ kind: 'proposed', proposal }];
   if (side === 0) {
-    // Its place is seen in the source's own shape.
+    // A place on the source can be seen only in the source's own shape.
     events.push({ kind: 'style', style: { morph: 0 } });
   }
   store.dispatch(...events);
@@ -36,12 +36,12 @@ function answer(store: Store, proposer: Proposer, question: Question, before: Qu
   }
 }
 
-/** From now on every half pair whose turn it is has the map's proposal, where there is a map. */
+/** From now on, where there is a map, each half pair whose turn it is gets the map's proposal. */
 export function listenForHalves(store: Store, proposer: Proposer): void {
   store.subscribe((state, previous) => {
     const [question, before] = [questionOf(state), questionOf(previous)];
     if (question !== null && !isSameQuestion(question, before)) {
-      // The next change, not one within this.
+      // The proposal is a change of its own, after the present one.
       queueMicrotask(() => {
         answer(store, proposer, question, before);
       });

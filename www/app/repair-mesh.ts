@@ -1,4 +1,4 @@
-/** Repairs a mesh that was refused, as it was offered, and shows where one was repaired. */
+/** Repairs a refused mesh as the page has offered, and shows where a mesh was repaired. */
 import { repairedEvents } from '../opening.ts';
 import { examinedOf } from '../files.ts';
 import type { Side } from '../landmarks.ts';
@@ -11,7 +11,7 @@ import type { State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { perform } from './task.ts';
 
-/** Repairs a mesh and puts it in its place. */
+/** Repairs a refused mesh and opens the result in its place. */
 export async function repairMesh(store: Store, reader: FileReader, mesh: RefusedMesh): Promise<void> {
   const { kind } = store.state.job;
   if (kind === 'running' || kind === 'busy') {
@@ -30,7 +30,7 @@ export async function repairMesh(store: Store, reader: FileReader, mesh: Refused
   );
 }
 
-/** Shows what was wrong with the mesh of a side before it was repaired, or no more. */
+/** Shows or hides what was wrong with the mesh of a side before it was repaired. */
 export async function showRepairs(store: Store, reader: FileReader, side: Side, shown: 'shown' | 'hidden'): Promise<void> {
   const file = store.state.meshes[side];
   if (shown === 'hidden' || file === null) {
@@ -49,12 +49,12 @@ export async function showRepairs(store: Store, reader: FileReader, side: Side, 
   );
 }
 
-/** What is shown of defects. */
+/** The examinations of defects that the page shows. */
 function held({ refused, examined }: State): Set<Examined> {
   return new Set([...examined, ...(refused?.meshes ?? []).map((mesh) => mesh.examined)].filter((one) => one !== null));
 }
 
-/** Gives back the core's memory of defects that nothing shows any more. */
+/** Frees the core's memory of defects that the page no longer shows. */
 export function freeExamined(state: State, previous: State): void {
   if (state.refused === previous.refused && state.examined === previous.examined) {
     return;

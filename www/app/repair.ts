@@ -1,4 +1,4 @@
-/** Does what a finding about the landmarks asks for. */
+/** Carries out the repair that a finding about the landmarks suggests. */
 import { mirroredEvent, mirrorQuestion } from '../files.ts';
 import type { FileReader } from '../reading/reader.ts';
 import type { Doubt } from '../store/state.ts';
@@ -11,11 +11,11 @@ import { perform } from './task.ts';
 export interface RepairTools {
   readonly runner: Runner;
   readonly reader: FileReader;
-  /** Brings a pair before the user's eyes. */
+  /** Turns the views to a pair. */
   readonly lookAtPair: (id: number) => void;
 }
 
-/** Puts the target's mirror image in its place, with its points; a run with the old ones ends. */
+/** Replaces the target by its mirror image, with its points; a run with the old points ends. */
 async function mirror(store: Store, { runner, reader }: RepairTools): Promise<void> {
   const { pairs, meshes } = store.state;
   const target = meshes[1];
@@ -28,7 +28,7 @@ async function mirror(store: Store, { runner, reader }: RepairTools): Promise<vo
     `Mirroring ${target.name}…`,
     (signal) => reader.ask(mirrorQuestion(target, pairs), signal),
     (mirrored) => {
-      // Points that were placed meanwhile are not on the image.
+      // Points that were placed since lie on the mesh as it was, so the image is dropped.
       if (store.state.meshes[1] === target && store.state.pairs === pairs) {
         store.dispatch(mirroredEvent(mirrored, pairs));
       }
@@ -36,7 +36,7 @@ async function mirror(store: Store, { runner, reader }: RepairTools): Promise<vo
   );
 }
 
-/** Repairs; a run with the old pairs ends. */
+/** Carries out the repair of a finding; a run with the old pairs ends. */
 export function repair(store: Store, tools: RepairTools, finding: Doubt): void {
   const { dispatch } = store;
   switch (finding.repair) {

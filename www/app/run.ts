@@ -1,4 +1,4 @@
-/** The run of the page: starts it, ends it, asks it for its result. */
+/** The run of the page: starts it, cancels it, and asks it to finish early. */
 import { startRun, warmUp } from '../compute/client.ts';
 import type { Core } from '../compute/core.ts';
 import type { Run, RunListener } from '../compute/client.ts';
@@ -8,7 +8,7 @@ import { landmarkFileOf } from '../store/landmark-file.ts';
 import { canRun, needsRun } from '../store/readiness.ts';
 import type { Store } from '../store/store.ts';
 
-/** Holds the workers: beside the store the only thing of the page that changes. */
+/** Owns the workers of runs. Beside the store it is the only object of the page that changes. */
 export class Runner {
   readonly #store: Store;
   #core: () => Core | null = () => null;
@@ -19,17 +19,17 @@ export class Runner {
     this.#store = store;
   }
 
-  /** The core, there or on its way; `null` until it is known where it comes from. */
+  /** The core, loaded or still loading; `null` until it is known where it comes from. */
   get core(): Core | null {
     return this.#core();
   }
 
-  /** Takes what gives the core, without which no run starts. */
+  /** Takes the function that gives the core; no run starts without it. */
   use(core: () => Core): void {
     this.#core = core;
   }
 
-  /** Has the browser optimise the core by a small map, this demo's; a run that begins ends it. */
+  /** Has the browser optimise the core by making the map of a demo, given by its id; a run that begins ends that. */
   warmUp(demo: string): void {
     const { core } = this;
     if (core !== null && this.#run === null) {
@@ -66,7 +66,7 @@ export class Runner {
     );
   }
 
-  /** Ends the run at once. */
+  /** Cancels the run at once. */
   cancel(): void {
     this.#run?.cancel();
     this.#run = null;
@@ -75,7 +75,7 @@ export class Runner {
     }
   }
 
-  /** Asks the run for its result. */
+  /** Asks the run to finish with the map as it is. */
   finish(): void {
     this.#run?.finish();
     this.#store.dispatch({ kind: 'run-finish' });

@@ -1,4 +1,4 @@
-/** Work that comes from elsewhere or goes there: between the page's state and the form that links and projects have. */
+/** Converts work between the page's state and the form that links and projects have. */
 import type { NamedBytes } from '../files.ts';
 import { areMarksGood, checkFit, FileRefused, meshFile } from '../files.ts';
 import { SENTENCES } from '../messages.ts';
@@ -12,17 +12,17 @@ import type { Allowed } from '../store/refused.ts';
 import type { Demo, MeshFile, State, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 
-/** A mesh as it arrives. */
+/** A mesh that comes with a link or project. */
 export interface ArrivingMesh {
   readonly name: string;
   readonly bytes: Uint8Array;
   /** Where it was loaded from; `null` where it was given by hand. */
   readonly address: string | null;
-  /** What came with it to be laid on it. */
+  /** The picture or materials that came with it. */
   readonly picture?: Uint8Array;
 }
 
-/** The work on the page and how it is looked at, without the meshes. */
+/** The work on the page and how it is viewed, without the meshes. */
 export function sentWorkOf({ pairs, up, groundTruth, options, ui }: State): SentWork {
   return {
     pairs: pairs.map(({ number, points, label, locked, radius }) => ({ number, points, label, locked, ...(radius === undefined ? {} : { radius }) })),
@@ -39,7 +39,7 @@ function named({ name, bytes, address, picture }: ArrivingMesh): NamedBytes {
   return { name, bytes, ...(address === null ? {} : { address }), ...(picture === undefined ? {} : { picture }) };
 }
 
-/** Reads arriving meshes. Those of work that was on a page are allowed every repair that they were given there. */
+/** Reads arriving meshes. Meshes of work that was on a page before are allowed every repair that they were given there. */
 export async function readArriving(
   reader: FileReader,
   [source, target]: readonly [ArrivingMesh | null, ArrivingMesh | null],
@@ -53,7 +53,7 @@ export async function readArriving(
   return Promise.all([read(source), read(target)]);
 }
 
-/** Does something with meshes that were read; where it fails, the core's memory of them is given back. */
+/** Gives meshes that were read to `work`; where that fails, the core's memory of them is freed. */
 export function withMeshes<T>(read: readonly [ReadFile | null, ReadFile | null], work: (meshes: Work['meshes']) => T): T {
   const loaded: (MeshFile | null)[] = [];
   try {
@@ -70,8 +70,8 @@ export function withMeshes<T>(read: readonly [ReadFile | null, ReadFile | null],
 }
 
 /**
- * Puts work that was sent onto the page, as one step. `origin` is what a sentence calls the link or file where its points do
- * not belong to the meshes.
+ * Puts work that was sent onto the page, as one step. `origin` names the link or file in the sentence that is shown where a point does not
+ * belong to the meshes.
  */
 export function place(store: Store, origin: string, sent: SentWork, meshes: Work['meshes'], demo: Demo | null): void {
   const work: Work = {
@@ -86,7 +86,7 @@ export function place(store: Store, origin: string, sent: SentWork, meshes: Work
   const ui = { style: sent.style, cameras: sent.cameras };
   const events: Event[] = [{ kind: 'restored', work, ui, history: NO_HISTORY }];
   checkFit({ name: origin }, events, store.state);
-  // The core looks at whole pairs; half ones are points of the meshes, too.
+  // The core checks pairs that have both points; the points of half pairs must belong to the meshes, too.
   if (!areMarksGood(work)) {
     throw new FileRefused(`${origin}: ${SENTENCES.badPoint}`);
   }

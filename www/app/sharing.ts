@@ -1,4 +1,4 @@
-/** The link to what is on the page. */
+/** Makes the link to what is on the page. */
 import type { Link, LinkedFile } from '../send/link.ts';
 import { addressOf } from '../send/address.ts';
 import { hashOf } from '../send/hash.ts';
@@ -8,7 +8,7 @@ import { linkAddress, prospectOf } from '../send/share.ts';
 import type { MeshFile, State } from '../store/state.ts';
 import { sentWorkOf } from './sent-work.ts';
 
-/** A link with what its receiver will meet. */
+/** A link, and what whoever opens it will be asked for. */
 export interface SharedLink {
   readonly url: string;
   readonly prospect: Prospect;
@@ -16,14 +16,14 @@ export interface SharedLink {
 
 const HASHES = new WeakMap<MeshFile, Promise<string | null>>();
 
-/** The hash of a mesh's file, made once; `null` where the page may not make it. */
+/** The hash of a mesh's file, computed once; `null` where the browser does not allow it. */
 function hashOfMesh(file: MeshFile): Promise<string | null> {
   const known = HASHES.get(file) ?? hashOf(file.bytes);
   HASHES.set(file, known);
   return known;
 }
 
-/** How a link speaks of a mesh; `null` where it cannot. */
+/** How a link names a mesh; `null` where it cannot. */
 async function linkedFile(file: MeshFile, base: URL): Promise<LinkedFile | null> {
   const address = file.address === undefined ? 'no-address' : addressOf(file.address, base);
   if (typeof address !== 'string') {
@@ -33,7 +33,7 @@ async function linkedFile(file: MeshFile, base: URL): Promise<LinkedFile | null>
   return hash === null ? null : { kind: 'local', name: file.name, hash };
 }
 
-/** The link to the work; `null` where the page cannot tell its files apart or has none, and where it would be too long. */
+/** The link to the work; `null` where the page has no meshes or cannot compute their hashes, and where the link would be too long. */
 export async function sharedLink(state: State, base: URL): Promise<SharedLink | null> {
   const work = sentWorkOf(state);
   if (state.demo !== null) {
@@ -47,7 +47,7 @@ export async function sharedLink(state: State, base: URL): Promise<SharedLink | 
   return isEmpty || !isTold ? null : shared({ demo: null, files: [source, target], landmarks: null, work }, base);
 }
 
-/** `null` for a link that nobody could open, as one with thousands of pairs. */
+/** A link with its prospect; `null` for a link that no page would open, such as one with thousands of pairs. */
 function shared(link: Link, base: URL): SharedLink | null {
   const url = linkAddress(link, base);
   const isReadable = readLink(new URL(url).hash, base).kind === 'link';

@@ -6,14 +6,14 @@ import { pointsOf } from '../store/points.ts';
 import type { Store } from '../store/store.ts';
 import { perform } from './task.ts';
 
-/** A suggestion as the core gives it; `partner` is a number in the list. */
+/** A suggestion as the core gives it; `partner` is an index into the list of suggestions. */
 interface Found {
   readonly point: number;
   readonly reason: Suggestion['reason'];
   readonly partner: number | null;
 }
 
-/** Suggestions with letters for names, in their order; after Z comes A again. */
+/** Suggestions named by letters in their order; after Z the letters begin again at A. */
 export function lettered(found: readonly Found[]): Suggestion[] {
   const letter = (index: number): string => String.fromCharCode(65 + (index % 26));
   return found.map(({ point, reason, partner }, index) => ({
@@ -28,7 +28,7 @@ export function lettered(found: readonly Found[]): Suggestion[] {
 export async function suggest(store: Store, reader: FileReader, side: Side): Promise<void> {
   const { job, meshes } = store.state;
   const file = meshes[side];
-  // A mesh that is being read is not given up for suggestions.
+  // Suggestions do not interrupt the reading of a mesh.
   if (file === null || job.kind === 'running' || job.kind === 'busy') {
     return;
   }

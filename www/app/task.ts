@@ -1,4 +1,4 @@
-/** Work other than a run: the page says what it does, and one work takes the place of another. */
+/** Tasks other than a run: the page says what it does, and a new task replaces the one before. */
 import { failureOf } from '../compute/messages.ts';
 import { FileRefused } from '../files.ts';
 import { failureSentence } from '../messages.ts';
@@ -6,10 +6,10 @@ import type { Event } from '../store/events.ts';
 import type { Task } from '../store/job.ts';
 import type { Store } from '../store/store.ts';
 
-/** After this time in ms the work begins unseen: a page in the background draws no frames. */
+/** The longest wait for a drawn frame before a task begins, in ms: a page in the background draws no frames. */
 const PAINTED_AT_LATEST = 200;
 
-/** Lets the browser draw what was said before the page is busy. */
+/** Lets the browser draw the sentence about a task before the page is busy. */
 function painted(): Promise<void> {
   return new Promise((resolve) => {
     const timer = setTimeout(resolve, PAINTED_AT_LATEST);
@@ -20,7 +20,7 @@ function painted(): Promise<void> {
   });
 }
 
-/** What was thrown, as it is told to the page. */
+/** What was thrown, as an event that shows the error on the page. */
 export function errorOf(thrown: unknown): Extract<Event, { readonly kind: 'error' }> {
   if (thrown instanceof FileRefused) {
     return { kind: 'error', sentence: thrown.message, ...(thrown.failure === null ? {} : { failure: thrown.failure }) };
@@ -29,7 +29,7 @@ export function errorOf(thrown: unknown): Extract<Event, { readonly kind: 'error
   return { kind: 'error', sentence: failureSentence(failure), failure };
 }
 
-/** The user has had enough of the task that the page is busy with, if there is one. */
+/** Gives up the task that the page is busy with, if there is one. */
 export function leaveTask(store: Store): void {
   const { job } = store.state;
   if (job.kind === 'busy') {
@@ -37,7 +37,9 @@ export function leaveTask(store: Store): void {
   }
 }
 
-/** Prepares something and uses it, while the page says so; beside a run or another task, which is not given up for it. */
+/**
+ * Prepares something and uses it while the page says so. Nothing is done while a run or another task goes on, which is not given up for it.
+ */
 export async function performBeside<T>(store: Store, sentence: string, prepare: () => Promise<T>, use: (made: T) => void): Promise<void> {
   const { job } = store.state;
   if (job.kind !== 'running' && job.kind !== 'busy') {
@@ -51,13 +53,13 @@ export async function performBeside<T>(store: Store, sentence: string, prepare: 
   }
 }
 
-/** What became of a work: done, broken off with a sentence, or left out because another one had begun. */
+/** How a task ended: done, failed with a sentence, or left out because another one had begun. */
 export type Outcome = 'done' | 'failed' | 'left-out';
 
 /**
- * Prepares something, then works on it. The sentence is there to read before the work holds the page up. Where another task has
- * begun meanwhile, or the user has had enough of this one, the signal tells its preparation and the work is left out, so that a
- * slow one does not overwrite a later one.
+ * Prepares something, then works on it. The sentence can be read before the work blocks the page. Where another task has begun meanwhile,
+ * or the user has given this one up, the signal aborts its preparation and the work is left out, so that a slow task does not overwrite a
+ * later one.
  */
 export async function perform<T>(
   store: Store,
@@ -73,7 +75,7 @@ export async function perform<T>(
       leaving.abort();
     }
   });
-  // Nobody waits for a preparation that was left, also where it does not hear the signal.
+  // The task ends at once when it is given up, even where its preparation ignores the signal.
   const left = new Promise<never>((_, reject) => {
     leaving.signal.addEventListener('abort', () => {
       reject(new Error('left'));

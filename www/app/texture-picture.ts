@@ -1,4 +1,4 @@
-/** Lays a picture of the user's on the flat metric. */
+/** Lays a picture of the user on the flat metric. */
 import type { Failure } from '../compute/messages.ts';
 import { failureOf } from '../compute/messages.ts';
 import { fileSentence } from '../messages.ts';
@@ -7,13 +7,16 @@ import type { Pixels } from '../viewer/decoded.ts';
 import { decoded } from '../viewer/decoded.ts';
 import { checkPicture } from '../wasm/page.js';
 
-/** Bytes of a picture's file; no camera makes larger ones. */
+/** The largest picture file, in bytes; no camera makes larger ones. */
 const LARGEST = 64 * 2 ** 20;
 
-/** How many were asked for: a slow one does not take the place of one that was chosen after it. */
+/** How many pictures were asked for, so that a slow one does not replace one that was chosen after it. */
 let asked = 0;
 
-/** The pixels of a picture; `null` where it cannot be decoded, and why where its head alone says so: a small file can hold a picture of any size. */
+/**
+ * The pixels of a picture; `null` where it cannot be decoded, and the reason where its header alone shows it: a small file can hold a
+ * picture of any size.
+ */
 async function read(file: File): Promise<Pixels | Failure | null> {
   const bytes = await file.arrayBuffer().catch(() => null);
   if (bytes === null) {
@@ -28,7 +31,7 @@ async function read(file: File): Promise<Pixels | Failure | null> {
   return decoded(picture);
 }
 
-/** Reads a picture and shows it; what cannot be read is told, and the last picture stays. */
+/** Reads a picture and shows it; where it cannot be read the page says so, and the last picture stays. */
 export async function openTexturePicture(store: Store, file: File): Promise<void> {
   const number = ++asked;
   const tell = (sentence: string): void => {

@@ -1,15 +1,15 @@
-/** How the views are turned to what is to be seen. */
+/** Turns the views to what the user asks to see. */
 import type { Side } from '../landmarks.ts';
 import type { CameraCommand } from '../panels/actions.ts';
 import type { Store } from '../store/store.ts';
 import type { Views } from '../viewer/viewer.ts';
 
-/** Places of the source are where its own shape has them. */
+/** Shows the source in its own shape, where its places are. */
 export function showOwnShape(store: Store): void {
   store.dispatch({ kind: 'style', style: { morph: 0 } });
 }
 
-/** Opens the list, where the selected pair is, and turns both views to it. */
+/** Opens the list of landmarks, in which the selected pair is shown, and turns both views to the pair. */
 export function showPair(store: Store, views: Views, id: number): void {
   store.dispatch({ kind: 'ui', ui: { step: 'landmarks', panel: 'open' } }, { kind: 'style', style: { morph: 0 } });
   views.lookAtPair(id);

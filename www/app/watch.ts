@@ -1,4 +1,4 @@
-/** Parts of the method of the map on the page, done again for whoever looks at them. */
+/** Computes parts of the method of the map on the page again, for the user to watch. */
 import type { Core } from '../compute/core.ts';
 import type { Failure } from '../compute/messages.ts';
 import type { OtherMap, Scheme } from '../report.ts';
@@ -13,17 +13,17 @@ import { shownResult } from '../store/staleness.ts';
 import type { Result } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 
-/** What was computed stays as long as its map does, by what was wanted. */
+/** For each map, what was computed of it, by the key of the wish; it stays as long as the map does. */
 const KNOWN = new WeakMap<object, Map<string, Watched[Watchable]>>();
 
-// Who looks at the planes has fetched what draws them; their client comes with it.
+// Whoever looks at the planes has already fetched the module that draws them; their client comes with it.
 const loadPlanes = lateModule(() => import('../method/plane-client.ts'));
 
 const nothing = (): void => undefined;
 
 interface Work {
   readonly result: Result;
-  /** What a worker begins with. */
+  /** The part of the request that every worker needs. */
   readonly begun: { readonly module: Core; readonly source: Uint8Array; readonly target: Uint8Array; readonly landmarks: string; readonly cones: Float64Array };
 }
 
@@ -46,14 +46,14 @@ function failing(failed: (sentence: string) => void): (failure: Failure) => void
   };
 }
 
-/** What is wanted of a map, beside what it was made from. */
+/** What is wanted of a map, beyond what it was made from. */
 type Wish<W extends Watchable> = { readonly wanted: W } & Pick<WatchRequest, 'scheme' | 'carried' | 'other'>;
 
-/** Computes what is wanted in a worker, or tells it where it is known; `key` tells apart what is wanted. */
+/** Computes what is wanted in a worker, or answers at once where it is known; `key` identifies the wish. */
 function startWish<W extends Watchable>({ result, begun }: Work, wish: Wish<W>, key: string, listener: Listener<Watched[W]>): () => void {
   const known = KNOWN.get(result.output) ?? new Map<string, Watched[Watchable]>();
   KNOWN.set(result.output, known);
-  // What is kept under a wish is its answer.
+  // The answer under a key is always of the type that its wish asks for.
   const answer = known.get(key) as Watched[W] | undefined;
   if (answer !== undefined) {
     queueMicrotask(() => {
@@ -74,13 +74,13 @@ function startWish<W extends Watchable>({ result, begun }: Work, wish: Wish<W>, 
   );
 }
 
-/** Computes the flows of the map on the page in a worker; returns what ends that. */
+/** Computes the flows of the map on the page in a worker; the returned function ends it. */
 export function startFlowing(store: Store, core: Core | null, listener: Listener<Flows>, scheme: Scheme): () => void {
   const work = shownWork(store, core);
   return work === null ? nothing : startWish(work, { wanted: 'flows', scheme, carried: null, other: null }, `flows ${scheme}`, listener);
 }
 
-/** Likewise the simplification. */
+/** Computes the simplification in the same way. */
 export function startSimplifying(store: Store, core: Core | null, listener: Listener<Simplifications>, from: SimplifiedFrom): () => void {
   const work = shownWork(store, core);
   if (work === null) {
@@ -91,7 +91,7 @@ export function startSimplifying(store: Store, core: Core | null, listener: List
   return startWish(work, { wanted: 'simplifications', scheme: null, carried, other: null }, `simplifications ${from}`, listener);
 }
 
-/** Likewise another map of what it was made from. */
+/** Computes another map of the same meshes, landmarks and options in the same way. */
 export function startOtherMap(store: Store, core: Core | null, listener: Listener<OtherOutput>, which: OtherMap): () => void {
   const work = shownWork(store, core);
   if (work === null) {
@@ -102,7 +102,7 @@ export function startOtherMap(store: Store, core: Core | null, listener: Listene
   return startWish(work, { wanted: 'other-map', scheme: null, carried: null, other }, `other-map ${which}`, listener);
 }
 
-/** Computes both flat metrics of the map on the page in a worker that lays them out as long as nobody ends it. */
+/** Computes both flat metrics of the map on the page in a worker, which lays them out until it is ended. */
 export function startLayingOut(store: Store, core: Core | null, listener: Listener<Planes>): () => void {
   const work = shownWork(store, core);
   if (work === null) {

@@ -1,4 +1,4 @@
-/** Files that are brought across a map: answers one request, then is thrown away. */
+/** The worker that brings files across a map: it answers one request, then is ended. */
 import { failureField, failureOf } from '../compute/messages.ts';
 import { progressListener } from '../compute/progress-listener.ts';
 import { writeArchive } from '../send/archive.ts';
@@ -11,7 +11,7 @@ const LISTENER = progressListener((share) => {
   post({ kind: 'progress', share });
 });
 
-/** A failure that is not the core's. */
+/** A failure that does not come from the core. */
 class Failed extends Error {
   readonly failure: BringFailure;
 
@@ -39,7 +39,7 @@ async function bytesOf(file: Blob, number: number): Promise<Uint8Array> {
   }
 }
 
-/** What each file may hold; one is in memory at a time. */
+/** What each file may hold; only one file at a time is in memory. */
 async function lookedAt(files: readonly Blob[]): Promise<readonly GivenFileReport[]> {
   const reports: GivenFileReport[] = [];
   for (const [number, file] of files.entries()) {

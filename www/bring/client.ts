@@ -1,17 +1,17 @@
-/** Has files looked at and brought across in a worker, and ends it. */
+/** Has a worker look at files and bring them across, and ends it. */
 import type { With } from '../compute/core.ts';
 import type { Failure } from '../compute/messages.ts';
 import { askOnce } from '../compute/one-request.ts';
 import type { Answers, BringFailure, BringMessage, BringRequest } from './messages.ts';
 
-/** What is told meanwhile and at the end. */
+/** What is reported while the worker goes on and at its end. */
 export interface BringListener<A> {
   readonly progress: (share: number) => void;
   readonly done: (answer: A) => void;
   readonly failed: (failure: BringFailure) => void;
 }
 
-/** A worker that broke off names no file. */
+/** The failure with the file at fault; a worker that broke off names none. */
 function withFile(failure: Failure): BringFailure {
   return 'file' in failure ? (failure as BringFailure) : { ...failure, file: null };
 }
@@ -23,7 +23,7 @@ function ask<A extends Answers[keyof Answers]>(request: With<BringRequest>, list
       if (message.kind === 'progress') {
         listener.progress(message.share);
       } else {
-        // The worker answers what it was asked.
+        // The worker's answer is always of the type that its request asks for.
         listener.done(message.answer as A);
       }
     },
@@ -35,12 +35,12 @@ function ask<A extends Answers[keyof Answers]>(request: With<BringRequest>, list
 
 type Request<K extends BringRequest['kind']> = Omit<With<Extract<BringRequest, { readonly kind: K }>>, 'kind'>;
 
-/** Has it told by file what each may hold; the returned function ends it at once, and the listener hears nothing more. */
+/** Has a worker report what each file may hold; the returned function ends it at once, and the listener hears nothing more. */
 export function lookAt(request: Request<'look'>, listener: BringListener<Answers['look']>): () => void {
   return ask({ ...request, kind: 'look' }, listener);
 }
 
-/** Has files brought across, likewise. */
+/** Has a worker bring files across, in the same way. */
 export function bringAcross(request: Request<'bring'>, listener: BringListener<Answers['bring']>): () => void {
   const asked: With<BringRequest> & { readonly kind: 'bring' } = { ...request, kind: 'bring' };
   return ask(asked, listener);

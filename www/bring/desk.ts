@@ -1,4 +1,4 @@
-/** What the user has chosen to bring across, and what becomes of it; it stays while other steps are open. */
+/** Holds what the user has chosen to bring across and the results; it stays while other steps are open. */
 import type { Core } from '../compute/core.ts';
 import { endingOf } from '../named-file.ts';
 import type { Result } from '../store/state.ts';
@@ -7,18 +7,18 @@ import type { BringFailure, Brought, GivenFileReport, Kind, TransferWhat, Transf
 import type { Giver } from './words.ts';
 import { bringSentence, notTogether, receiverOf, savedSentence, WORDS } from './words.ts';
 
-/** What a column holds. */
+/** What a column of a table holds. */
 export type Role = 'numbers' | 'labels' | 'weights';
 
 type Values = Extract<TransferWhat, { readonly kind: 'values' }>;
 
-/** What is chosen beside the files. */
+/** The choices beside the files. */
 export interface Choices {
   readonly from: Giver;
   readonly method: Values['method'];
-  /** What all columns hold, or each its own. */
+  /** What all columns hold; `own` where each has its own role. */
   readonly columns: Role | 'own';
-  /** What each column holds where each has its own; numbers where none is told. */
+  /** The role of each column where each has its own; a column that is not listed holds numbers. */
   readonly roles: ReadonlyMap<string, Role>;
   readonly valueFormat: Values['format'];
   readonly curveFormat: Extract<TransferWhat, { readonly kind: 'curves' }>['format'];
@@ -26,16 +26,16 @@ export interface Choices {
   readonly size: number;
 }
 
-/** Files that were looked at. */
+/** Files that were looked at, with what they may be. */
 export interface Given {
   readonly files: readonly File[];
-  /** What they may be taken for; at least one. */
+  /** The kinds that they may be taken for; at least one. */
   readonly kinds: readonly Kind[];
   readonly kind: Kind;
   readonly columns: readonly string[];
 }
 
-/** A file that came. */
+/** A file that was brought across. */
 export interface MadeFile {
   readonly name: string;
   readonly bytes: Uint8Array<ArrayBuffer>;
@@ -43,17 +43,17 @@ export interface MadeFile {
 }
 
 export interface DeskState {
-  /** What is done now, with the share of it that is done; `null` for nothing. */
+  /** What is being done now, with the share of it that is done; `null` for nothing. */
   readonly work: { readonly kind: 'looking' | 'bringing'; readonly share: number } | null;
   readonly given: Given | null;
   readonly choices: Choices;
-  /** Why the last wish was not met; `null` where it was. */
+  /** Why the last request failed; `null` where it did not. */
   readonly error: string | null;
-  /** What came last. */
+  /** The last file that was brought across. */
   readonly made: MadeFile | null;
 }
 
-/** What the page lends. */
+/** What the desk needs of the page. */
 export interface DeskHands {
   readonly core: () => Core | null;
   /** The map of the meshes on the page. */
@@ -64,10 +64,10 @@ export interface DeskHands {
 /** The sizes of a baked picture that can be chosen, up to the core's largest. */
 export const SIZES = [512, 1024, 2048, 4096, 8192] as const;
 
-/** Bytes of all files together, at most. */
+/** The most bytes of all files together. */
 const MOST_BYTES = 2 ** 30;
 
-/** What is chosen at first; a test holds what the core has for usual against it. */
+/** The choices at first; a test compares them with the usual ones of the core. */
 const BEGINNING: DeskState = {
   work: null,
   given: null,
@@ -76,7 +76,7 @@ const BEGINNING: DeskState = {
   made: null,
 };
 
-/** What the files may be taken for together; a sentence where there is nothing. */
+/** What the files may be taken for together; a sentence where they can be taken for nothing. */
 function together(files: readonly File[], reports: readonly GivenFileReport[]): Given | string {
   const [first] = reports;
   const [kind] = first?.kinds ?? [];
@@ -90,7 +90,7 @@ function together(files: readonly File[], reports: readonly GivenFileReport[]): 
   return other === -1 ? { files, kinds: ['frames'], kind: 'frames', columns: [] } : notTogether(files[other]?.name ?? '');
 }
 
-/** What is asked of the core for these choices. */
+/** The request to the core for these choices. */
 export function wishOf({ kind, columns }: Pick<Given, 'kind' | 'columns'>, choices: Choices): TransferWish {
   const having = (role: Role): string[] => columns.filter((name) => (choices.columns === 'own' ? choices.roles.get(name) : choices.columns) === role);
   const { from, method, valueFormat, curveFormat, size } = choices;
@@ -106,19 +106,19 @@ export function wishOf({ kind, columns }: Pick<Given, 'kind' | 'columns'>, choic
   }
 }
 
-/** The name under which something is saved that came of a file. */
+/** The name under which a result is saved, made from the name of the given file. */
 function savedName(given: string, { only }: Brought, giver: Giver): string {
   const stem = given.replace(/\.[^.]*$/, '');
   return only === null ? `${stem}-and-others-on-${receiverOf(giver)}.zip` : `${stem}-on-${receiverOf(giver)}.${endingOf(only)}`;
 }
 
-/** Holds all of it, and the worker. */
+/** Owns the files, the choices and the worker. */
 export class Desk {
   readonly #hands: DeskHands;
   #state = BEGINNING;
   #listeners = new Set<() => void>();
   #end = (): void => undefined;
-  /** The map by which something is being brought. */
+  /** The map by which files are being brought across. */
   #by: Result | null = null;
 
   constructor(hands: DeskHands) {
@@ -140,7 +140,7 @@ export class Desk {
     this.#set({ choices: { ...this.#state.choices, ...choices } });
   }
 
-  /** Takes the files for something else that they may be. */
+  /** Takes the files for another kind that they may be. */
   takeFor(kind: Kind): void {
     const { given } = this.#state;
     if (given?.kinds.includes(kind) === true) {
@@ -148,7 +148,7 @@ export class Desk {
     }
   }
 
-  /** Looks at files; those before stay until it is known what these are. */
+  /** Looks at files; the earlier ones stay until it is known what the new ones are. */
   take(files: readonly File[]): void {
     const core = this.#begin('looking');
     const large = files.find(({ size }) => size > MOST_BYTES);
@@ -169,7 +169,7 @@ export class Desk {
     }
   }
 
-  /** Brings the files across, and saves what comes. */
+  /** Brings the files across, and saves the result. */
   bring(): void {
     const { given, choices } = this.#state;
     if (given !== null) {
@@ -182,7 +182,7 @@ export class Desk {
     this.#ask([], { from: this.#state.choices.from, what: { kind: 'shapes' } }, () => 'shapes.zip');
   }
 
-  /** Saves once more what came last. */
+  /** Saves the last result once more. */
   saveAgain(): void {
     const { made } = this.#state;
     if (made !== null) {
@@ -190,13 +190,13 @@ export class Desk {
     }
   }
 
-  /** Ends what is done now; files and choices stay. */
+  /** Ends what is being done now; files and choices stay. */
   cancel(): void {
     this.#end();
     this.#set({ work: null });
   }
 
-  /** Leaves what is being brought by another map than that on the page. */
+  /** Ends what is being brought by a map that is no longer the one on the page. */
   follow(): void {
     if (this.#state.work?.kind === 'bringing' && this.#hands.shown() !== this.#by) {
       this.#end();
@@ -204,7 +204,7 @@ export class Desk {
     }
   }
 
-  /** Ends what was done before; the core, or `null` where it is missing, which is told. */
+  /** Ends what was being done; returns the core, or `null` where it is missing, and shows that. */
   #begin(kind: 'looking' | 'bringing'): Core | null {
     this.#end();
     this.#end = () => undefined;
@@ -254,7 +254,7 @@ export class Desk {
     }
     const valueFormat = endingOf(files[0]?.name ?? '') === 'ply' ? 'ply' : 'csv';
     const { choices } = this.#state;
-    // What was said of columns goes with them.
+    // The roles of columns hold only for files with the same columns.
     const isSame = given.columns.join() === this.#state.given?.columns.join();
     const columns = isSame ? {} : ({ columns: 'numbers', roles: new Map<string, Role>() } as const);
     this.#set({ work: null, given, made: null, choices: { ...choices, valueFormat, ...columns } });

@@ -1,4 +1,4 @@
-/** What the page and the worker that brings files across say to each other. */
+/** The messages between the page and the worker that brings files across. */
 import type { Failure } from '../compute/messages.ts';
 import type { GivenFileReport, GivenKind, MeshSide, TransferWish } from '../wasm/core.js';
 
@@ -7,14 +7,14 @@ export type { GivenFileReport, TransferWhat, TransferWish } from '../wasm/core.j
 /** What a file may be taken for. */
 export type Kind = GivenKind;
 
-/** What a map is made of: its file, and those of its meshes. */
+/** The files of which a map is opened: its own, and those of its meshes. */
 export interface MapBytes {
   readonly map: Uint8Array;
   readonly source: Uint8Array;
   readonly target: Uint8Array;
 }
 
-/** To the worker, which answers once. It reads the files itself, so that none passes through the page. */
+/** The request to the worker, which answers once. It reads the files itself, so that none passes through the page. */
 export type BringRequest = { readonly module: WebAssembly.Module; readonly files: readonly Blob[] } & (
   | { readonly kind: 'look' }
   | ({ readonly kind: 'bring'; readonly wish: TransferWish } & MapBytes)
@@ -27,22 +27,22 @@ export interface Brought {
   readonly bytes: Uint8Array<ArrayBuffer>;
   /** How many files there are. */
   readonly count: number;
-  /** What there is to know about them; `null` for nothing. */
+  /** A sentence about the files; `null` for none. */
   readonly remark: string | null;
 }
 
-/** Why nothing came, with the file at fault: the number of a given one, or a mesh's; `null` where it is none's. */
+/** Why nothing was brought across, with the file at fault: the index of a given one, or a mesh; `null` where no file is at fault. */
 export interface BringFailure extends Failure {
   readonly file: number | MeshSide | null;
 }
 
-/** By request what is answered: by file what it may hold, or what came across. */
+/** The answer to each kind of request: what each file may hold, or what was brought across. */
 export interface Answers {
   readonly look: readonly GivenFileReport[];
   readonly bring: Brought;
 }
 
-/** From the worker; the last two are last. */
+/** The messages of the worker; it ends after `done` or `failed`. */
 export type BringMessage =
   | { readonly kind: 'progress'; readonly share: number }
   | { readonly kind: 'done'; readonly answer: Answers[keyof Answers] }

@@ -4,10 +4,10 @@ import type { MeshSide } from '../report.ts';
 import type { Result } from '../store/state.ts';
 import type { BringFailure, Kind } from './messages.ts';
 
-/** The mesh that gives. */
+/** The mesh from which files are brought. */
 export type Giver = MeshSide;
 
-/** The mesh across. */
+/** The mesh onto which files are brought. */
 export function receiverOf(giver: Giver): Giver {
   return giver === 'source' ? 'target' : 'source';
 }
@@ -20,7 +20,7 @@ export const KIND_NAMES: Readonly<Record<Kind, string>> = {
   frames: 'Poses',
 };
 
-/** Names of columns that are told, at most. */
+/** The most names of columns that a sentence lists. */
 const MOST_NAMES = 6;
 
 function listed(names: readonly string[]): string {
@@ -28,7 +28,7 @@ function listed(names: readonly string[]): string {
   return names.length > MOST_NAMES ? `${told} and ${names.length - MOST_NAMES} more` : told;
 }
 
-/** What the files are taken for. */
+/** A sentence about what the files are taken for. */
 export function kindSentence(names: readonly string[], kind: Kind, columns: readonly string[], giver: Giver): string {
   const what = names.length === 1 ? (names[0] ?? '') : count(names.length, 'file');
   switch (kind) {
@@ -64,7 +64,7 @@ export function hindrance(last: Result | null, shown: Result | null): string | n
   return shown.output.map === null ? WORDS.noMapFile : null;
 }
 
-/** Why files that came together cannot be taken together: the first that is no mesh. */
+/** Why files that came together cannot be taken together; `name` is the first one that is no mesh. */
 export function notTogether(name: string): string {
   return `${name}: several files at once must be one mesh in several poses, and this is none. Bring it alone.`;
 }
@@ -73,12 +73,12 @@ export function notTogether(name: string): string {
 export function bringSentence(failure: BringFailure, given: readonly string[], meshes: Readonly<Record<Giver, string>>): string {
   const { file } = failure;
   const name = typeof file === 'number' ? given[file] : file === null ? undefined : meshes[file];
-  // Without a file the sentence stands for itself.
+  // Where no file is at fault the sentence stands without a name.
   const told = fileSentence(name ?? '', failure);
   return name === undefined ? told.slice(': '.length) : told;
 }
 
-/** What was saved. */
+/** A sentence about what was saved. */
 export function savedSentence(name: string, number: number): string {
   return number === 1 ? `Saved as ${name}.` : `${count(number, 'file')} saved as ${name}.`;
 }

@@ -1,4 +1,4 @@
-/** Starts runs in a worker and ends them. */
+/** Starts runs of the pipeline in a worker, and ends them. */
 import type { Finding } from '../report.ts';
 import type { Failure, Progress, RunOutput, RunRequest, WarmUpRequest, WorkerMessage } from './messages.ts';
 import type { With } from './core.ts';
@@ -14,7 +14,7 @@ export function warmUp(request: With<WarmUpRequest>): () => void {
   worker.addEventListener('error', (event) => {
     event.preventDefault();
   });
-  // A core that does not come is told to whoever waits for it.
+  // A core that does not load is reported to whoever waits for it, not here.
   postWithCore(worker, request, () => undefined);
   return () => {
     worker.terminate();
@@ -24,9 +24,9 @@ export function warmUp(request: With<WarmUpRequest>): () => void {
 /** What a run reports while it goes and when it ends. */
 export interface RunListener {
   progress(progress: Progress): void;
-  /** A map is relaxed, or is on a finer level: energies do not compare with those before. */
+  /** A map begins to be relaxed, or goes on to a finer level: its energies cannot be compared with those before. */
   relaxes(): void;
-  /** The map as it is being made: by vertex of the source its place on the target. */
+  /** A preview of the map that is being made: for each vertex of the source its place on the target. */
   preview(places: Float32Array): void;
   /** From now on the run can be asked to finish. */
   finishable(): void;

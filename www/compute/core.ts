@@ -1,11 +1,11 @@
-/** The two modules of the program: one draws meshes, the other, the core, reads them and makes maps, and comes after it. */
+/** The two wasm modules of the program: the page's module draws meshes; the core, which loads after it, reads meshes and makes maps. */
 import type { Failure } from './messages.ts';
 import { failureOf } from './messages.ts';
 
-/** The core, there or on its way. */
+/** The core, loaded or still loading. */
 export type Core = WebAssembly.Module | Promise<WebAssembly.Module>;
 
-/** A request as the page makes it: the core may be on its way. */
+/** A request as the page makes it: its core may still be loading. */
 export type With<Request extends { readonly module: WebAssembly.Module }> = Omit<Request, 'module'> & { readonly module: Core };
 
 async function compiled(url: URL): Promise<WebAssembly.Module> {
@@ -19,12 +19,12 @@ async function compiled(url: URL): Promise<WebAssembly.Module> {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-/** Compiles the page's module, for the page and its worker of files. */
+/** Compiles the page's module, for the page and the worker that sorts its files. */
 export function compilePage(): Promise<WebAssembly.Module> {
   return compiled(new URL('../wasm/page_bg.wasm', import.meta.url));
 }
 
-/** What gives the core: the first who asks has it fetched, and after a failure the next one has it fetched again. */
+/** A function that gives the core: its first call fetches the core, and the first call after a failure fetches it again. */
 export function coreSource(fetched = (): Promise<WebAssembly.Module> => compiled(new URL('../wasm/core_bg.wasm', import.meta.url))): () => Promise<WebAssembly.Module> {
   let coming: Promise<WebAssembly.Module> | null = null;
   return () => {
@@ -38,7 +38,10 @@ export function coreSource(fetched = (): Promise<WebAssembly.Module> => compiled
   };
 }
 
-/** Posts a request to a worker as soon as the core is there; who could not be asked is told, but never at once. */
+/**
+ * Posts a request to a worker as soon as the core is loaded. Calls `failed` where that is not possible, but never before this function
+ * returns.
+ */
 export function postWithCore(worker: Pick<Worker, 'postMessage'>, request: { readonly module: Core }, failed: (failure: Failure) => void): void {
   const post = (module: WebAssembly.Module): void => {
     try {

@@ -7,7 +7,7 @@ import { askOnce } from './one-request.ts';
 /** What a search reports while it goes and when it ends. */
 export interface MatchListener {
   progress(share: number): void;
-  /** The report is JSON; a picture of each of its candidates. */
+  /** The report as JSON, and a picture of each of its candidates. */
   done(report: string, pictures: readonly AnswerPicture[]): void;
   failed(failure: Failure): void;
 }

@@ -1,4 +1,4 @@
-/** One search for landmarks: answers one request, then is thrown away. */
+/** The worker of a search for landmarks: it answers one request, then is ended. */
 import init, { matchLandmarks } from '../wasm/core.js';
 import type { MatchReport } from '../report.ts';
 import type { FoundLandmarks } from '../wasm/core.js';

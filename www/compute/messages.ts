@@ -1,8 +1,8 @@
-/** What the page and the worker say to each other. */
+/** The messages between the page and the worker of a run. */
 
 import type { Finding, RepairOffer, RunOptions, Stage } from '../report.ts';
 
-/** What came with the source and the target to be laid on them: a picture, or materials with theirs. */
+/** What came with the source's and the target's file to be laid on the mesh: a picture, or materials with their pictures. */
 export type Companions = readonly [Uint8Array | undefined, Uint8Array | undefined];
 
 /** Everything one run needs. */
@@ -10,17 +10,17 @@ export interface RunRequest {
   readonly module: WebAssembly.Module;
   readonly source: Uint8Array;
   readonly target: Uint8Array;
-  /** What came with both to be laid on them. */
+  /** The pictures of both meshes. */
   readonly pictures: Companions;
   readonly landmarks: string;
   readonly options: RunOptions;
   /** The demo whose meshes these are, by its id; `null` for other meshes. */
   readonly demo: string | null;
-  /** The address of an empty file; when the page takes it back the run is to finish. */
+  /** The address of an empty file; when the page revokes it the run is asked to finish. */
   readonly finishUrl: string;
 }
 
-/** What the worker needs that makes a small map before the first run. */
+/** The request to the worker that makes a small map before the first run. */
 export interface WarmUpRequest {
   readonly module: WebAssembly.Module;
   /** The demo whose map is made: its id. */
@@ -39,9 +39,9 @@ export interface SideOutput {
 export interface BaseOutput {
   /** Its triangles, three cones each. The first cones are the landmarks, the others the program's own. */
   readonly triangles: Uint32Array;
-  /** By triangle and corner k the number of the patch line from corner k to k + 1. */
+  /** For each corner k of each triangle, the number of the patch line from corner k to k + 1. */
   readonly sides: Uint32Array;
-  /** In the shape of the source and of the target. */
+  /** The shape of the base domain on the source and on the target. */
   readonly shapes: readonly [BaseShape, BaseShape];
 }
 
@@ -51,20 +51,20 @@ export interface BaseShape {
   readonly cones: Float32Array;
   /** Angle defect at each cone, in radians. */
   readonly curvatures: Float64Array;
-  /** Corners of the mesh's parts, three numbers a point. */
+  /** The corners of the parts into which the mesh is cut, three numbers a point. */
   readonly patchPoints: Float32Array;
-  /** Those parts as triangles, patch after patch in the order of the base triangles; none where they are not known. */
+  /** The parts as triangles, patch after patch in the order of the base triangles; empty where they are not known. */
   readonly patchTriangles: Uint32Array;
-  /** Where each patch starts among the triangles, and one past the end. */
+  /** The number of the first triangle of each patch, and the number of all triangles at the end. */
   readonly patchStarts: Uint32Array;
-  /** By part triangle the face of the checked mesh that holds it. */
+  /** The face of the checked mesh that holds each part triangle. */
   readonly patchFaces: Uint32Array;
   /**
    * The borders of the patches, four numbers a piece: the base triangle's corner at which its side begins (three times the triangle plus
    * the corner), the face of the checked mesh, and the points at its ends.
    */
   readonly patchBorders: Uint32Array;
-  /** By base triangle the face of the checked mesh in the middle of its patch. */
+  /** The face of the checked mesh in the middle of each base triangle's patch. */
   readonly patchMiddles: Uint32Array;
 }
 
@@ -72,21 +72,21 @@ export interface BaseShape {
 export interface RunOutput {
   readonly sides: readonly [SideOutput, SideOutput];
   readonly uvs: Float32Array;
-  /** By point, 1 for none; empty where the method has none. */
+  /** The distortion at each point of the overlay, 1 for none; empty where the method has none. */
   readonly distortion: Float32Array;
-  /** By point the distance to its true image, in units of the root of the target's area; empty where that is not known. */
+  /** The distance of each point to its true image, in units of the root of the target's area; empty where the true map is not known. */
   readonly truth: Float32Array;
   readonly triangles: Uint32Array;
   /** The face of each mesh in which each triangle lies; empty where that is not known. */
   readonly faces: readonly [Uint32Array, Uint32Array];
   readonly cones: Float64Array;
-  /** `null` where it is not known how it lies on the meshes. */
+  /** The base domain; `null` where it is not known how it lies on the meshes. */
   readonly base: BaseOutput | null;
-  /** JSON. */
+  /** The report, as JSON. */
   readonly report: string;
   /** The map file, from which every other file can be made; `null` where the map has no pieces, or a mesh was repaired. */
   readonly map: Uint8Array<ArrayBuffer> | null;
-  /** Files that were made with the map, where it has no map file to make them of later; else `null`. */
+  /** Files that were made with the map, where it has no map file from which to make them later; else `null`. */
   readonly made: MadeFiles | null;
 }
 
@@ -97,15 +97,15 @@ export interface MadeFiles {
   readonly baseObj: Uint8Array<ArrayBuffer>;
 }
 
-/** Where a run is; numbers that a step does not have are `null`. */
+/** The progress of a run; numbers that a step does not have are `null`. */
 export interface Progress {
   readonly stage: Stage;
-  /** What the program does, in words. */
+  /** A sentence about what the program does. */
   readonly sentence: string;
   /** Share of the whole run that is done, 0 to 1; it never falls. */
   readonly share: number;
   readonly residual: number | null;
-  /** Of the map that is being relaxed, 4 for an isometry. */
+  /** The energy of the map that is being relaxed; an isometry has energy 4. */
   readonly energy: number | null;
 }
 
@@ -113,24 +113,24 @@ export interface Progress {
 export interface Failure {
   readonly code: string;
   readonly message: string;
-  /** Of a mesh that was refused: the repair that would help, where there is one. */
+  /** The repair that would help a refused mesh, where there is one. */
   readonly offer?: RepairOffer;
-  /** Of what broke off: the calls that led there, as the browser tells them. */
+  /** The stack of calls where the program broke off, as the browser gives it. */
   readonly stack?: string;
 }
 
-/** From the worker. */
+/** The messages of the worker. */
 export type WorkerMessage =
   | ({ readonly kind: 'progress' } & Progress)
   | { readonly kind: 'relaxes' }
   | { readonly kind: 'finishable' }
-  /** The map as it is being made: by vertex of the source its place on the target. */
+  /** A preview of the map that is being made: for each vertex of the source its place on the target. */
   | { readonly kind: 'preview'; readonly places: Float32Array<ArrayBuffer> }
   | { readonly kind: 'found'; readonly findings: readonly Finding[] }
   | { readonly kind: 'done'; readonly output: RunOutput }
   | { readonly kind: 'failed'; readonly failure: Failure };
 
-/** The core's own offer, which is as it declares it. */
+/** The core's offer of a repair, in the form in which the core declares it. */
 function offerIn(value: object): Pick<Failure, 'offer'> {
   return 'offer' in value && value.offer !== null ? { offer: value.offer as RepairOffer } : {};
 }
@@ -139,13 +139,13 @@ function stackOf({ stack }: Error): Pick<Failure, 'stack'> {
   return stack === undefined ? {} : { stack };
 }
 
-/** What the core said when it gave up, which the browser's error does not hold; it says nothing where memory ran out. */
+/** The core's last words when it gave up, which the browser's error does not hold; `null` where it said nothing, as when memory ran out. */
 function lastPanic(): string | null {
   const said: unknown = Reflect.get(globalThis, 'conemapPanic');
   return typeof said === 'string' ? said : null;
 }
 
-/** What the core throws says of itself under a name, beside code and message; `undefined` where it says nothing. */
+/** A further field of an error of the core, beside code and message; `undefined` where the error has no such field. */
 export function failureField(thrown: unknown, name: string): unknown {
   try {
     const value: unknown = typeof thrown === 'string' ? JSON.parse(thrown) : null;
@@ -155,7 +155,7 @@ export function failureField(thrown: unknown, name: string): unknown {
   }
 }
 
-/** Reads what the core throws: a string that holds `{code, message}`, or a trap. */
+/** Reads an error of the core: a string that holds `{code, message}`, or a trap. */
 export function failureOf(thrown: unknown): Failure {
   if (typeof thrown === 'string') {
     try {

@@ -1,17 +1,17 @@
-/** A worker that is asked once, tells how it goes on, and is thrown away with its last message. */
+/** A worker that is asked once, reports its progress, and is ended after its last message. */
 import type { Core } from './core.ts';
 import { postWithCore } from './core.ts';
 import type { Failure } from './messages.ts';
 
-/** What such a worker says: `done` and `failed` are last. */
+/** A message of such a worker: `done` and `failed` are the last. */
 type Message = { readonly kind: string } | { readonly kind: 'failed'; readonly failure: Failure };
 
-/** Who hears it. */
+/** The listener to such a worker. */
 interface Listener<M extends Message> {
-  /** A message that is no failure; after `done` the worker has ended. */
+  /** Called with each message that is no failure; after `done` the worker has ended. */
   heard(message: Exclude<M, { readonly kind: 'failed' }>): void;
   failed(failure: Failure): void;
-  /** The worker has ended, for whatever reason; the first thing that is heard of it. */
+  /** Called once the worker has ended, for whatever reason, and before any other call that follows from its end. */
   ended?(): void;
 }
 

@@ -1,6 +1,6 @@
-/** What a worker gives the core that only wants to be told how far it is. */
+/** A listener for the core where only the progress is of interest. */
 
-/** Where progress goes; nothing else is heard, and no result is asked for early. */
+/** Passes the progress on, ignores everything else, and never asks for an early result. */
 export function progressListener(progress: (share: number) => void): {
   readonly progress: (stage: string, sentence: string, share: number) => void;
   readonly relaxes: () => void;

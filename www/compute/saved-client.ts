@@ -1,10 +1,10 @@
-/** A saved map in a worker of its own: opened with its meshes, shown, exported, wrapped and proved. */
+/** A saved map in a worker of its own: it is opened with its meshes, shown, exported, wrapped and proved. */
 import type { ProofReport } from '../report.ts';
 import type { Core } from './core.ts';
 import { postWithCore } from './core.ts';
 import type { OpenedMap, SavedAnswer, SavedFailure, SavedFiles, SavedRequest, Way, WayPoints, WrappedFile } from './saved-messages.ts';
 
-/** What a saved map's promises fail with. */
+/** The error of a saved map's promises. */
 export class SavedMapError extends Error {
   readonly failure: SavedFailure;
 
@@ -17,17 +17,17 @@ export class SavedMapError extends Error {
 
 /** A saved map. Its promises fail with a {@link SavedMapError}. */
 export interface SavedMapHandle {
-  /** The map for the views; `null` where only files were asked for. */
+  /** The map for the views; `null` where the map was opened for files alone. */
   readonly opened: Promise<OpenedMap | null>;
-  /** One file of the map by name: `map.conemap`, `source-with-target-texture.glb`, and the others that the command line writes. */
+  /** One file of the map by its name: `map.conemap`, `source-with-target-texture.glb`, and the others that the command line writes. */
   file(name: string): Promise<Uint8Array<ArrayBuffer>>;
   /** The source's file with its vertices laid onto the target. */
   wrapped(): Promise<WrappedFile>;
-  /** How points of the map go from the source's shape to the target's. */
+  /** How points of the map move from the source's shape to the target's. */
   way(points: WayPoints): Promise<Way>;
-  /** What a program says of the map that shares nothing with what made it. */
+  /** The verdict on the map by a second program, which is independent of the one that made it. */
   proof(): Promise<ProofReport>;
-  /** Ends the worker; what was asked and not answered fails with the code `closed`. */
+  /** Ends the worker; open questions fail with the code `closed`. */
   close(): void;
 }
 
@@ -78,7 +78,7 @@ export function openSavedMap(module: Core, files: SavedFiles, show: 'views' | 'f
       }
       const id = next++;
       waiting.set(id, { resolve, reject });
-      // Every request goes with the core, so that none overtakes the first.
+      // Every request brings the core with it, so that none overtakes the first one while the core loads.
       const request = { ...body, id, module };
       postWithCore(worker, request, (failure) => {
         waiting.delete(id);

@@ -1,4 +1,4 @@
-/** What the page and the worker of a saved map say to each other. */
+/** The messages between the page and the worker of a saved map. */
 
 import type { ProofReport } from '../report.ts';
 import type { Companions, Failure, RunOutput } from './messages.ts';
@@ -8,7 +8,7 @@ export interface SavedFiles {
   readonly map: Uint8Array;
   readonly source: Uint8Array;
   readonly target: Uint8Array;
-  /** What came with both meshes to be laid on them. */
+  /** The pictures of both meshes. */
   readonly pictures?: Companions;
   /** The demo whose meshes these are, by its id; without it nothing is known of the true map. */
   readonly demo?: string | null;
@@ -22,34 +22,34 @@ export interface OpenedMap {
   readonly buffers: MapBuffers;
   /** The landmark file of the run. */
   readonly landmarks: Uint8Array<ArrayBuffer>;
-  /** What was chosen of the run: JSON; `null` where this version does not know it. */
+  /** The options of the run, as JSON; `null` where this version does not know them. */
   readonly options: string | null;
-  /** Whether it goes to the mirror image of the target. */
+  /** Whether the map goes to the mirror image of the target. */
   readonly isMirrored: boolean;
 }
 
-/** Points of a map as the views have them. */
+/** Points of a map, in the views' coordinates. */
 export interface WayPoints {
   /** Places on the source, three numbers each. */
   readonly source: Float32Array;
   readonly target: Float32Array;
-  /** Three points each. */
+  /** The triangles between the points, three points each. */
   readonly triangles: Uint32Array;
   /** The source's face of each triangle. */
   readonly faces: Uint32Array;
 }
 
-/** How the points go from the source's shape to the target's, as the core packs it. */
+/** How the points move from the source's shape to the target's, as the core packs it. */
 export interface Way {
   /** The matrix that lays the target on the source, in the views' coordinates. */
   readonly laid: Float32Array;
-  /** The length for which 32767 stands in the bends. */
+  /** The length that the number 32767 stands for in the bends. */
   readonly range: number;
-  /** 12 numbers a point. */
+  /** The bends, 12 numbers a point. */
   readonly bends: Int16Array;
 }
 
-/** To the worker. It opens one map, then answers. */
+/** The requests to the worker. The first one opens a map, and the others ask about it. */
 export type SavedRequest =
   | ({ readonly kind: 'open'; readonly id: number; readonly module: WebAssembly.Module; readonly show: 'views' | 'files' } & SavedFiles)
   | { readonly kind: 'file'; readonly id: number; readonly name: string }
@@ -60,16 +60,16 @@ export type SavedRequest =
 /** The source's file laid onto the target. */
 export interface WrappedFile {
   readonly bytes: Uint8Array<ArrayBuffer>;
-  /** What became of it, in sentences. */
+  /** Sentences about the result. */
   readonly sentence: string;
 }
 
-/** A failure, with the mesh that is not the map's where it is one. */
+/** A failure, with the side whose mesh is not the map's; `null` where the failure has another cause. */
 export interface SavedFailure extends Failure {
   readonly side: 'source' | 'target' | null;
 }
 
-/** From the worker: the answer to the request of the same number. */
+/** The worker's answer to the request with the same id. */
 export type SavedAnswer =
   | { readonly kind: 'opened'; readonly id: number; readonly opened: OpenedMap | null }
   | { readonly kind: 'file'; readonly id: number; readonly bytes: Uint8Array<ArrayBuffer> }

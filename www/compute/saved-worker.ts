@@ -1,4 +1,7 @@
-/** A saved map: opens it once, then gives what the views show and its files, lays its source onto its target, and proves it. */
+/**
+ * The worker of a saved map: it opens the map once, then gives what the views show and the files, lays the source onto the target, and
+ * proves the map.
+ */
 import type { ProofReport } from '../report.ts';
 import init, { openMap, proveMap } from '../wasm/core.js';
 import type { SavedMap } from '../wasm/core.js';

@@ -1,4 +1,4 @@
-/** A map of the core as arrays that can be sent. */
+/** Converts a map of the core into arrays that can be sent between threads. */
 import type { MapOutput, SavedMap } from '../wasm/core.js';
 import type { BaseOutput, BaseShape, SideOutput } from './messages.ts';
 import type { MapBuffers, OpenedMap } from './saved-messages.ts';
@@ -34,7 +34,7 @@ function arraysOf(base: BaseOutput): readonly ArrayBufferView[] {
   return [base.triangles, base.sides, ...base.shapes.flatMap((shape) => Object.values(shape) as readonly ArrayBufferView[])];
 }
 
-/** What the views show of a map. */
+/** The arrays that the views show of a map. */
 export function viewBuffers(output: MapOutput): MapBuffers {
   return {
     sides: [sideOf(output, 0), sideOf(output, 1)],
@@ -49,7 +49,7 @@ export function viewBuffers(output: MapOutput): MapBuffers {
   };
 }
 
-/** What the page takes of a saved map, of this demo where it is one; the core's own copy of it is free again. */
+/** What the page takes of a saved map; `demo` is the id of the demo whose map it is. The core's own copy of the map's arrays is freed. */
 export function openedOf(map: SavedMap, demo: string | null): OpenedMap {
   const output = map.output(demo);
   const buffers = viewBuffers(output);
@@ -57,7 +57,7 @@ export function openedOf(map: SavedMap, demo: string | null): OpenedMap {
   return { buffers, landmarks: map.landmarks().slice(), options: map.options() ?? null, isMirrored: map.isMirrored() };
 }
 
-/** The buffers of them, to be handed over. */
+/** The buffers of these arrays and files, to be transferred without a copy. */
 export function transferable(buffers: MapBuffers, files: readonly Uint8Array[]): Transferable[] {
   const arrays = [
     ...buffers.sides.flatMap((side) => [side.positions, side.normals, side.linePoints, side.lineStarts]),

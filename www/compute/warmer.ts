@@ -1,4 +1,4 @@
-/** Makes a small map and throws it away: the browser optimises code that has run, for all workers with the same module. */
+/** The worker that makes a small map and throws it away: the browser optimises code that has run, for all workers with the same module. */
 import init, { buildDemo, runMap } from '../wasm/core.js';
 import type { WarmUpRequest } from './messages.ts';
 import { progressListener } from './progress-listener.ts';

@@ -1,17 +1,17 @@
-/** Does parts of the method again in a worker, to be looked at. */
+/** Computes parts of the method again in a worker, for the user to watch. */
 import type { With } from './core.ts';
 import type { Failure } from './messages.ts';
 import { askOnce } from './one-request.ts';
 import type { Watchable, Watched, WatchMessage, WatchRequest } from './watch-messages.ts';
 
-/** What is told meanwhile and at the end. */
+/** What is reported while the worker goes on and at its end. */
 export interface WatchListener<W extends Watchable> {
   readonly progress: (share: number) => void;
   readonly done: (answer: Watched[W]) => void;
   readonly failed: (failure: Failure) => void;
 }
 
-/** Starts it; the returned function ends it at once, and the listener hears nothing more. */
+/** Starts the worker; the returned function ends it at once, and the listener hears nothing more. */
 export function startWatched<W extends Watchable>(request: With<WatchRequest> & { readonly wanted: W }, listener: WatchListener<W>): () => void {
   const worker = new Worker(new URL('./watch-worker.ts', import.meta.url), { type: 'module' });
   return askOnce<WatchMessage>(worker, request, {
@@ -19,7 +19,7 @@ export function startWatched<W extends Watchable>(request: With<WatchRequest> & 
       if (message.kind === 'progress') {
         listener.progress(message.share);
       } else {
-        // The worker answers what it was asked.
+        // The worker's answer is always of the type that its request asks for.
         listener.done(message.answer as Watched[W]);
       }
     },

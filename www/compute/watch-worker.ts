@@ -1,4 +1,4 @@
-/** Parts of the method that are done again to be looked at: answers one request, then is thrown away. */
+/** The worker that computes parts of the method again: it answers one request, then is ended. */
 import init, { recordCarriedSimplification, recordFlows, recordSimplifications, runOtherMap } from '../wasm/core.js';
 import type { RecordedFlows, Simplifications as RecordedSimplifications } from '../wasm/core.js';
 import { failureOf } from './messages.ts';
@@ -63,7 +63,7 @@ function answerTo(request: WatchRequest): Watched[Watchable] {
   }
 }
 
-/** The arrays in an answer, to be handed over. */
+/** The arrays in an answer, to be transferred without a copy. */
 function arraysIn(value: unknown): readonly ArrayBufferView[] {
   if (ArrayBuffer.isView(value)) {
     return [value];

@@ -1,4 +1,4 @@
-/** One run of the pipeline: answers one request, then is thrown away. */
+/** The worker of one run of the pipeline: it answers one request, then is ended. */
 import init, { runMap } from '../wasm/core.js';
 import type { MapOutput } from '../wasm/core.js';
 import type { Finding } from '../report.ts';
@@ -14,7 +14,7 @@ function post(message: WorkerMessage, transfer: Transferable[] = []): void {
 
 function read(output: MapOutput, { source, target, pictures }: RunRequest): RunOutput {
   const map = output.mapFile()?.slice() ?? null;
-  // What can be made of the map file later is not made now.
+  // Files that can be made from the map file later are not made now.
   const made = map === null ? { glb: output.glb(source, target, ...pictures).slice(), csv: output.csv().slice(), baseObj: output.baseObj().slice() } : null;
   return { ...viewBuffers(output), map, made };
 }
@@ -30,8 +30,8 @@ function finite(value: number): number | null {
 }
 
 /**
- * Whether the page has taken the address of an empty file back. A worker that computes receives no message; but it can ask
- * for a file, and wait for the answer.
+ * Whether the page has revoked the address of an empty file. A worker that computes receives no message, but it can ask for a file and wait
+ * for the answer.
  */
 function isRevoked(url: string): boolean {
   const request = new XMLHttpRequest();
@@ -47,7 +47,7 @@ function isRevoked(url: string): boolean {
 async function run(request: RunRequest): Promise<void> {
   try {
     await init({ module_or_path: request.module });
-    // Where the file cannot be read at all, its absence would say nothing.
+    // Where the file cannot be read even now, a later failure to read it would mean nothing.
     const canAsk = !isRevoked(request.finishUrl);
     if (canAsk && request.options.method === 'relaxed') {
       post({ kind: 'finishable' });

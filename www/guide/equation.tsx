@@ -1,4 +1,7 @@
-/** An equation of the guide. What sets it comes when the first one is shown; until then, and where it does not come, it is plain text. */
+/**
+ * An equation of the guide. The module that typesets it is fetched with the first equation; until it has come, and where it fails, the
+ * equation is plain text.
+ */
 import type { VNode } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import { lateModule } from '../late-module.ts';
@@ -7,7 +10,7 @@ const loadTypeset = lateModule(() => import('./typeset.ts'));
 
 export interface Formula {
   readonly tex: string;
-  /** The same as a line of text. */
+  /** The equation as a line of text. */
   readonly plain: string;
 }
 
@@ -30,7 +33,7 @@ export function Equation({ tex, plain }: Formula): VNode {
   return markup === null ? (
     <p class="equation plain">{plain}</p>
   ) : (
-    // The markup is made of the guide's own text.
+    // The markup is made from the guide's own text alone.
     <div class="equation" dangerouslySetInnerHTML={{ __html: markup }} />
   );
 }

@@ -98,7 +98,7 @@ export function distortion(s1: number, s2: number): Distortion {
   return { density: (s1 ** 2 + s2 ** 2 + s1 ** -2 + s2 ** -2) / 4, angle: (s1 / s2 + s2 / s1) / 2, area: s1 * s2 };
 }
 
-/** A triangulation of a triangle's inside: its corners, and each face as three of them. */
+/** A triangulation of the inside of a triangle: its points, and the three corners of each face. */
 export interface Triangulation {
   readonly points: readonly Point[];
   readonly faces: readonly (readonly [number, number, number])[];

@@ -24,15 +24,15 @@ const SECTIONS = [
 type SectionId = (typeof SECTIONS)[number][0];
 
 export interface GuideProps {
-  /** Of the map that the views show; `null` where they show none. */
+  /** The report of the map that the views show; `null` where they show none. */
   readonly report: Report | null;
-  /** The section to begin with, as a link names it; an object of its own for each wish. */
+  /** The section to begin with, as a link names it. Each request is a new object, so that the same section can be asked for again. */
   readonly wish: { readonly section: string };
-  /** Shows something on the meshes, for which the guide makes way. */
+  /** Shows something on the meshes and closes the guide. */
   readonly show: (look: Partial<Style>) => void;
 }
 
-/** Brings a section to the top, and the keyboard to it. */
+/** Scrolls a section to the top, and gives it the keyboard focus. */
 function goTo(root: HTMLElement | null, id: string): void {
   const heading = root?.querySelector<HTMLElement>(`#guide-${CSS.escape(id)} > h3`);
   heading?.scrollIntoView({ block: 'start' });
@@ -248,7 +248,7 @@ function Citing(): VNode {
   );
 }
 
-/** All of it. */
+/** The whole guide. */
 export default function Guide({ report, wish, show }: GuideProps): VNode {
   const root = useRef<HTMLDivElement>(null);
   useEffect(() => {

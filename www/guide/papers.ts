@@ -5,7 +5,7 @@ export interface Paper {
   readonly year: number;
   readonly title: string;
   readonly where: string;
-  /** What was taken from it. */
+  /** What the program takes from it. */
   readonly use: string;
 }
 

@@ -1,4 +1,4 @@
-/** What each number of a map means, and what it is for the map on the page. */
+/** What each number of a map means, and its value for the map on the page. */
 import { figure, integer, percent } from '../numbers.ts';
 import type { Report } from '../report.ts';
 

@@ -1,4 +1,4 @@
-/** The method in ten steps: what each does, its equation, its drawing, and what the last run says of it. */
+/** The ten steps of the method: what each does, its equation, its drawing, and what the last run reports about it. */
 import type { FunctionComponent } from 'preact';
 import { figure, integer } from '../numbers.ts';
 import type { ConeMetricReport, Report } from '../report.ts';
@@ -12,9 +12,9 @@ export interface MethodStep {
   readonly text: readonly string[];
   readonly formula: Formula;
   readonly Picture: FunctionComponent;
-  /** What a report has to say of the step; `null` where nothing. */
+  /** What a report says about the step; `null` where it says nothing. */
   readonly fact: (report: Report) => string | null;
-  /** How the views show it on the meshes; `null` where they do not. */
+  /** The style in which the views show the step on the meshes; `null` where they cannot. */
   readonly look: Partial<Style> | null;
 }
 

@@ -1,39 +1,39 @@
-/** The scales of heat maps: from values to places on a scale of colours, 0 to 1, and back. */
+/** The scales of heat maps: they convert values to places on a scale of colours, from 0 to 1, and back. */
 import { placeOf } from '../method/factors.ts';
 import type { HeatMap } from '../store/state.ts';
 
 export interface Scale {
-  /** From little to much, or from what shrinks to what grows. */
+  /** The colours rise from little to much, or diverge from shrinking to growing. */
   readonly colours: 'rising' | 'diverging';
-  /** Where a value lies; beyond the ends below 0 or above 1. */
+  /** The place of a value on the scale; below 0 or above 1 where it is beyond an end. */
   readonly place: (value: number) => number;
-  /** The value there. */
+  /** The value at a place. */
   readonly value: (place: number) => number;
-  /** What the colours tell, for those who do not see them. */
+  /** The meaning of the colours, for readers who do not see them. */
   readonly label: string;
-  /** What stands at the beginning, in the middle and at the end. */
+  /** The labels at the beginning, in the middle and at the end. */
   readonly ticks: readonly [string, string, string];
 }
 
-/** At the end of the scales of distortions. */
+/** The value at the end of the scales of distortions. */
 const DISTORTION_END = 4;
 
-/** Of the distance to the true image, in units of the root of the target's area. */
+/** The distance to the true image at the end of its scale, in units of the root of the target's area. */
 const TRUTH_END = 0.01;
 
-/** Of curvatures, in units of a sphere's. */
+/** The curvature at the end of its scale, in units of the curvature of a sphere of the same area. */
 const CURVATURE_END = 100;
 
 function logarithmic(end: number): Pick<Scale, 'colours' | 'place' | 'value'> {
   return { colours: 'rising', place: (value) => Math.log(Math.max(value, 1)) / Math.log(end), value: (place) => end ** place };
 }
 
-/** Factors from the inverse of the end through 1 to the end. */
+/** A scale of factors from the inverse of the end through 1 to the end. */
 function factors(end: number): Pick<Scale, 'colours' | 'place' | 'value'> {
   return { colours: 'diverging', place: (value) => placeOf(Math.log(value), end), value: (place) => end ** (2 * place - 1) };
 }
 
-/** Curvatures of either sign: even around 0, by their logarithm where they are large. */
+/** A scale of curvatures of either sign: linear around 0, logarithmic where they are large. */
 const CURVATURES = {
   colours: 'diverging',
   place: (value: number) => 0.5 + Math.asinh(value) / (2 * Math.asinh(CURVATURE_END)),
@@ -41,7 +41,7 @@ const CURVATURES = {
   ticks: [`−${CURVATURE_END}`, '0', `${CURVATURE_END} × sphere`],
 } as const;
 
-/** The scale of a heat map; `end` is that of conformal factors, which follows from the flows. */
+/** The scale of a heat map; `end` is the end of the scale of conformal factors, which follows from the flows. */
 export function scaleOf(heat: HeatMap, end = 2): Scale {
   switch (heat) {
     case 'distortion':

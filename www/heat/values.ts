@@ -1,4 +1,4 @@
-/** What heat maps show: values by point of the map, or by vertex of both meshes. */
+/** The values of heat maps: at points of the map's overlay, or at vertices of both meshes. */
 import type { Flows } from '../compute/watch-messages.ts';
 import { momentCount, placesAt, scaleEnd } from '../method/factors.ts';
 import { measurePieces } from '../plots/spectrum.ts';
@@ -8,10 +8,10 @@ import { scaleOf } from './scales.ts';
 
 type Output = Pick<Result['output'], 'sides' | 'triangles' | 'distortion' | 'truth'>;
 
-/** By point of a map's overlay; what was measured once is kept as long as the map. */
+/** Values at the points of each map's overlay; they are kept as long as the map. */
 const MEASURED = new WeakMap<object, Map<'angles' | 'areas', Float32Array>>();
 
-/** The mean logarithm of a measure over the pieces around each point, by area. */
+/** The mean logarithm of a measure over the pieces around each point, weighted by area. */
 function aroundPoints({ sides, triangles }: Output, heat: 'angles' | 'areas'): Float32Array {
   const count = sides[0].positions.length / 3;
   const [sums, weights] = [new Float64Array(count), new Float64Array(count)];
@@ -27,7 +27,7 @@ function aroundPoints({ sides, triangles }: Output, heat: 'angles' | 'areas'): F
   return Float32Array.from(sums, (sum, point) => Math.exp(sum / Math.max(weights[point] ?? 0, Number.MIN_VALUE)));
 }
 
-/** The values of a heat map by point of the map. */
+/** The values of a heat map at the points of the map's overlay. */
 export function valuesByPoint(output: Output, heat: MapHeat): Float32Array {
   if (heat === 'distortion' || heat === 'truth') {
     return output[heat];
@@ -45,7 +45,7 @@ export interface VertexHeat {
   readonly places: readonly [Float32Array, Float32Array];
 }
 
-/** What flows tell of the vertices. */
+/** The heat map that flows give at the vertices. */
 export function heatByVertex(flows: Flows, heat: FlowHeat): VertexHeat {
   const end = scaleEnd(flows);
   const scale = scaleOf(heat, end);

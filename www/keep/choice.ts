@@ -1,29 +1,29 @@
-/** Which of the kept sessions is offered, and which ones go. */
+/** Chooses which of the kept sessions is offered, and which ones are removed. */
 import * as v from 'valibot';
 import type { Reading, SessionRecord } from './record.ts';
 import { readSession } from './record.ts';
 
-/** Sessions that are kept beside those that tabs have open. */
+/** The most sessions that are kept beside those that tabs have open. */
 const MOST_SESSIONS = 5;
 
-/** What can be said of any record, of whatever version. */
+/** The fields that records of all versions have. */
 const Outline = v.object({ id: v.string(), saved: v.fallback(v.number(), 0) });
 
-/** What can be done with the sessions that no tab has open. */
+/** The choice among the sessions that no tab has open. */
 export interface Choice {
-  /** The latest one that nobody declined. */
+  /** The latest session that was not declined; `null` for none. */
   readonly latest: SessionRecord | null;
   /** Ids of all that could be offered, the latest first. */
   readonly offerable: readonly string[];
-  /** Ids of those that cannot be read, and of all but the latest. */
+  /** Ids of the sessions that cannot be read, and of those beyond the latest few. */
   readonly obsolete: readonly string[];
-  /** Whether some were kept by another version of the page, which are left as they are. */
+  /** Whether some sessions were kept by another version of the page; these are left alone. */
   readonly hasOthers: boolean;
   /** Whether some cannot be read. */
   readonly hasBroken: boolean;
 }
 
-/** Looks through all records as they were kept; `open` are the ids of sessions that tabs have. */
+/** Chooses among all records as they were kept; `open` has the ids of the sessions that tabs have open. */
 export function choiceOf(all: readonly unknown[], open: ReadonlySet<string>): Choice {
   const closed = all
     .flatMap((value) => {
@@ -35,7 +35,7 @@ export function choiceOf(all: readonly unknown[], open: ReadonlySet<string>): Ch
   const sound: { readonly id: string; readonly reading: Reading }[] = [];
   let hasBroken = false;
   for (const { id, value } of closed) {
-    // Older ones go unread.
+    // Sessions beyond these are not read.
     if (sound.length < MOST_SESSIONS) {
       const reading = readSession(value);
       if (reading.kind === 'broken') {

@@ -4,33 +4,33 @@ import { openDB } from 'idb';
 import type { SessionRecord } from './record.ts';
 
 const NAME = 'conemap';
-/** Of the stores, not of the records in them. */
+/** The version of the database's layout, not of the records in it. */
 const LAYOUT = 1;
 
 interface Stores extends DBSchema {
-  /** By id. */
+  /** Sessions by id. */
   sessions: { key: string; value: SessionRecord; indexes: { hashes: string } };
-  /** By the hash of the bytes. */
+  /** The bytes of meshes by their hash. */
   meshes: { key: string; value: Uint8Array };
 }
 
-/** What one writing changes. */
+/** The changes of one transaction. */
 export interface Writing {
   readonly record: SessionRecord;
-  /** Bytes of meshes that may not be there, by hash; those that are there are not written again. */
+  /** Bytes, by hash, of meshes that may not be in the store; those that are there are not written again. */
   readonly fresh: ReadonlyMap<string, Uint8Array>;
-  /** Hashes of meshes that the session needs no more. */
+  /** Hashes of meshes that the session no longer needs. */
   readonly dropped: readonly string[];
-  /** Another session, which this one continues. */
+  /** The id of another session, which this one continues and replaces. */
   readonly absorbed: string | null;
 }
 
-/** Everything or nothing: waits for the operations and the end of their transaction. A failure is told once. */
+/** Does everything or nothing: waits for the operations and the end of their transaction. A failure is thrown once. */
 async function whole(
   transaction: { readonly done: Promise<void>; abort(): void },
   operations: () => Promise<void>,
 ): Promise<void> {
-  // An operation that fails ends the transaction, which fails, too.
+  // An operation that fails also makes its transaction fail.
   transaction.done.catch(() => undefined);
   try {
     await operations();
@@ -41,12 +41,12 @@ async function whole(
   await transaction.done;
 }
 
-/** Takes back what a transaction has done; what could not be asked for at all has not ended it yet. */
+/** Aborts a transaction; one whose first operation could not even be requested is still open. */
 function abort(transaction: { abort(): void }): void {
   try {
     transaction.abort();
   } catch {
-    // It is over already.
+    // The transaction is over already.
   }
 }
 
@@ -57,7 +57,7 @@ export class Database {
     this.#database = database;
   }
 
-  /** Opens the store. Throws where the browser has none or refuses it. `closed` is told when a newer page needs it. */
+  /** Opens the store. Throws where the browser has none or refuses it. `closed` is called when a newer page needs the store. */
   static async open(closed: () => void): Promise<Database> {
     const database = await openDB<Stores>(NAME, LAYOUT, {
       upgrade: (fresh) => {
@@ -79,7 +79,7 @@ export class Database {
     const transaction = this.#database.transaction(['sessions', 'meshes'], 'readwrite');
     const [sessions, meshes] = [transaction.objectStore('sessions'), transaction.objectStore('meshes')];
     if (fresh.size === 0 && dropped.length === 0 && absorbed === null) {
-      // Asked for in one go and ended: so it is done even where the page goes at once.
+      // The request and the commit are made at once, so that the record is written even where the page closes now.
       await whole(transaction, async () => {
         const putting = sessions.put(record);
         transaction.commit();
@@ -90,7 +90,7 @@ export class Database {
     await whole(transaction, async () => {
       for (const [hash, bytes] of fresh) {
         if ((await meshes.getKey(hash)) === undefined) {
-          // Of a view on larger memory the browser would keep all.
+          // For a view of a larger buffer the browser would store the whole buffer.
           await meshes.put(bytes.byteLength === bytes.buffer.byteLength ? bytes : bytes.slice(), hash);
         }
       }
@@ -122,7 +122,7 @@ export class Database {
     return bytes instanceof Uint8Array ? bytes : null;
   }
 
-  /** These sessions are not offered again. */
+  /** Marks sessions as declined, so that they are not offered again. */
   async decline(ids: readonly string[]): Promise<void> {
     const transaction = this.#database.transaction('sessions', 'readwrite');
     await whole(transaction, async () => {
@@ -135,7 +135,7 @@ export class Database {
     });
   }
 
-  /** Removes sessions, and the meshes that no session needs. */
+  /** Removes sessions, and the meshes that no other session needs. */
   async remove(ids: readonly string[]): Promise<void> {
     const transaction = this.#database.transaction(['sessions', 'meshes'], 'readwrite');
     const [sessions, meshes] = [transaction.objectStore('sessions'), transaction.objectStore('meshes')];

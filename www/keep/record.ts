@@ -1,10 +1,10 @@
 /**
- * A session as it is kept in the browser, version 1: the work, the steps around it, and how it was looked at. Meshes go by the
- * hash of their bytes, which are kept apart, so that a landmark that moves rewrites none. The last map is left out: it is made
- * again from the same work. What later versions add must be optional, or make it version 2.
+ * A session as the browser keeps it, version 1: the work, the steps before and after it, and how it was viewed. A mesh is named by the
+ * hash of its bytes, which are stored apart, so that moving a landmark does not write a mesh again. The last map is not kept: it can be
+ * made again from the same work. Fields that later versions add must be optional, or else the version becomes 2.
  *
- * Pairs are in one table, and each step lists its own by their places there: neighbouring steps share nearly all of them, and to
- * check them once is to open quickly. Lists that steps share are shared here, too, and the browser's copy keeps that.
+ * Pairs are in one table, and each step lists the indices of its pairs there: neighbouring steps share nearly all of their pairs, and a
+ * session opens quickly when each pair is checked only once. Steps that share a list share it here, too, and the browser keeps it so.
  */
 import * as v from 'valibot';
 import type { Pair } from '../landmarks.ts';
@@ -17,17 +17,17 @@ import { workOf } from '../store/work.ts';
 import { wordsOf } from '../unions.ts';
 
 const VERSION = 1;
-/** Longer than any name, label or sentence that is meant for eyes. */
+/** The most characters of a text, more than any name, label or sentence has. */
 const LONGEST_TEXT = 10_000;
-/** More steps than the history holds. */
+/** The most steps of a record, more than the history holds. */
 const MOST_STEPS = 1000;
-/** What the meshes of other steps may take beside those on the page, in bytes: on return they are all read at once. */
+/** The most bytes of meshes of other steps, beside those on the page: all of them are read when the work is brought back. */
 const MOST_BYTES = 32e6;
-/** How long the lists of pairs of all other steps may be together. */
+/** The most entries in the lists of pairs of all other steps together. */
 const MOST_LISTED = 100_000;
 
 const Text = v.pipe(v.string(), v.maxLength(LONGEST_TEXT));
-/** SHA-256 in base64url. */
+/** A SHA-256 hash in base64url. */
 const Hash = v.pipe(v.string(), v.regex(/^[\w-]{43}$/));
 const MeshRecord = v.object({ name: Text, hash: Hash, address: v.exactOptional(Text), picture: v.exactOptional(Hash) });
 const Point = v.nullable(v.union([Index, v.object({ face: Index, barycentric: v.strictTuple([Weight, Weight, Weight]) })]));
@@ -42,7 +42,7 @@ const PairRecord = v.object({
   locked: v.boolean(),
   radius: v.exactOptional(Radius),
 });
-/** Places in the table of pairs. There are thousands of them, so that each is looked at as quickly as can be. */
+/** Indices into the table of pairs. There are thousands of lists, so each is checked as quickly as possible. */
 const PairList = v.custom<readonly number[]>(
   (value) =>
     Array.isArray(value) && value.length <= MOST_PAIRS && value.every((place: unknown) => Number.isInteger(place) && Number(place) >= 0),
@@ -50,7 +50,7 @@ const PairList = v.custom<readonly number[]>(
 const WorkRecord = v.object({
   meshes: v.strictTuple([v.nullable(MeshRecord), v.nullable(MeshRecord)]),
   up: v.strictTuple([Axis, Axis]),
-  /** Its id. */
+  /** The id of the demo. */
   demo: v.nullable(Text),
   pairs: PairList,
   named: v.strictTuple([v.nullable(Text), v.nullable(Text)]),
@@ -59,7 +59,10 @@ const WorkRecord = v.object({
 });
 const Steps = v.pipe(v.array(v.object({ name: Text, work: WorkRecord })), v.maxLength(MOST_STEPS));
 
-/** How a session was looked at; what this page does not know is as at the start. The theme is the browser's, and no session's. */
+/**
+ * How a session was viewed; a field whose value this page does not know gets its initial value. The theme belongs to the browser, not to
+ * the session.
+ */
 const UiRecord = v.object({
   step: v.fallback(v.picklist(wordsOf<Ui['step']>({ meshes: true, landmarks: true, map: true, use: true, method: true })), INITIAL.ui.step),
   panel: v.fallback(v.picklist(wordsOf<Ui['panel']>({ open: true, folded: true })), INITIAL.ui.panel),
@@ -71,13 +74,13 @@ const UiRecord = v.object({
 const Session = v.object({
   version: v.literal(VERSION),
   id: Text,
-  /** When it was last changed, in ms since 1970. */
+  /** When the session was last changed, in ms since 1970. */
   saved: v.pipe(v.number(), v.finite()),
-  /** Whether the user began anew when it was offered. */
+  /** Whether the user began anew when the session was offered. */
   declined: v.boolean(),
-  /** Of all meshes that it needs. */
+  /** The hashes of all meshes that the session needs. */
   hashes: v.array(Hash),
-  /** All pairs of all steps, each as often as it changed. */
+  /** The pairs of all steps: each pair once for every change of it. */
   pairs: v.array(PairRecord),
   work: WorkRecord,
   past: Steps,
@@ -85,7 +88,7 @@ const Session = v.object({
   ui: UiRecord,
 });
 
-/** Whether every list has pairs of the table, with an id and a number of their own. */
+/** Whether every list refers to pairs of the table, and no two pairs of a list have the same id or number. */
 function areListsSound({ pairs, work, past, future }: v.InferOutput<typeof Session>): boolean {
   const lists = new Set([work, ...past.map((step) => step.work), ...future.map((step) => step.work)].map((each) => each.pairs));
   return [...lists].every((list) => {
@@ -101,14 +104,14 @@ export type MeshRecord = v.InferOutput<typeof MeshRecord>;
 type WorkRecord = v.InferOutput<typeof WorkRecord>;
 export type SessionRecord = v.InferOutput<typeof SessionSchema>;
 
-/** What was read from the browser's store. */
+/** The result of reading a record of the browser's store. */
 export type Reading =
   | { readonly kind: 'session'; readonly record: SessionRecord }
-  /** It is of another version of the page, and is left alone. */
+  /** The record is of another version of the page, and is left alone. */
   | { readonly kind: 'other-version' }
   | { readonly kind: 'broken' };
 
-/** Checks what was read. */
+/** Checks a record that was read. */
 export function readSession(value: unknown): Reading {
   const parsed = v.safeParse(SessionSchema, value);
   if (parsed.success) {
@@ -118,12 +121,12 @@ export function readSession(value: unknown): Reading {
   return { kind: isOther ? 'other-version' : 'broken' };
 }
 
-/** A session to keep: the work, and as many steps around it as are kept. */
+/** What is written of a session: the work, and as many steps around it as are kept. */
 export interface Kept {
   readonly work: Work;
   readonly past: readonly Step[];
   readonly future: readonly Step[];
-  /** All meshes of these. */
+  /** All meshes of the work and the steps. */
   readonly files: ReadonlySet<MeshFile>;
 }
 
@@ -131,7 +134,7 @@ function filesOf(work: Work): MeshFile[] {
   return work.meshes.filter((file) => file !== null);
 }
 
-/** What of a state is kept: the nearest steps, as long as their meshes and lists are not too large. */
+/** The part of a state that is kept: the work and the nearest steps, as long as their meshes and lists are not too large. */
 export function keptOf(state: State): Kept {
   const work = workOf(state);
   const files = new Set(filesOf(work));
@@ -157,7 +160,7 @@ export function keptOf(state: State): Kept {
   return { work, past, future, files };
 }
 
-/** One result for each object. */
+/** A version of `make` that makes one result for each object and returns it again. */
 function once<K extends object, T>(make: (key: K) => T): (key: K) => T {
   const made = new Map<K, T>();
   return (key) => {
@@ -171,7 +174,7 @@ function once<K extends object, T>(make: (key: K) => T): (key: K) => T {
   };
 }
 
-/** The record of a session. `hashes` has that of each mesh's bytes and of its picture's, where that is a file of its own. */
+/** The record of a session. `hashes` has the hash of each mesh's bytes, and of its picture's where that is a separate file. */
 export function recordOf(
   kept: Kept,
   { id, saved, ui }: { readonly id: string; readonly saved: number; readonly ui: Ui },
@@ -203,7 +206,7 @@ export function recordOf(
     saved,
     declined: false,
     hashes: [...new Set([...kept.files].map(mesh).flatMap(({ hash, picture }) => (picture === undefined ? [hash] : [hash, picture])))],
-    // Lists that are checked are not read-only; these are not written to.
+    // The lists of the schema's type are not read-only; these lists are never written to.
     pairs: table as SessionRecord['pairs'],
     work,
     past,
@@ -218,26 +221,26 @@ export function recordOf(
   };
 }
 
-/** The meshes that a session names, each once. */
+/** The meshes that a session names, each listed once. */
 export function meshesOf({ work, past, future }: SessionRecord): MeshRecord[] {
   const works = [work, ...past.map((step) => step.work), ...future.map((step) => step.work)];
   const all = works.flatMap(({ meshes }) => meshes.filter((mesh) => mesh !== null));
   return [...new Map(all.map((mesh) => [meshKey(mesh), mesh])).values()];
 }
 
-/** Tells meshes of a session apart: the same bytes may have two names, and two pictures. */
+/** The key of a mesh in a session: the same bytes may have two names, and two pictures. */
 export function meshKey({ name, hash, picture }: MeshRecord): string {
   return `${hash} ${picture ?? ''} ${name}`;
 }
 
-/** The work and history of a session. `files` has its meshes by key; a demo that is no more is none. */
+/** The work and history of a session. `files` has its meshes by key. A demo that no longer exists is left out. */
 export function workFrom(
   { pairs, work, past, future }: SessionRecord,
   files: ReadonlyMap<string, MeshFile>,
   demos: readonly Demo[],
 ): { readonly work: Work; readonly history: History } {
   const file = (mesh: MeshRecord | null): MeshFile | null => (mesh === null ? null : (files.get(meshKey(mesh)) ?? null));
-  // Steps that change no mesh share the pair of them, as they do when they are made.
+  // Steps that change no mesh share the array of both meshes, as they do when they are made.
   const both = new Map<string, Work['meshes']>();
   const listed = once((places: readonly number[]): readonly Pair[] => places.flatMap((place) => pairs[place] ?? []));
   const made = (record: WorkRecord): Work => {

@@ -2,17 +2,17 @@
 
 /** The tabs of the page in this browser. */
 export interface Tabs {
-  /** Makes a session this tab's own; `false` where another tab has it, and keeps it for so many ms. */
+  /** Makes a session this tab's own; returns `false` where another tab keeps it for `patience` ms. */
   claim(session: string, patience: number): Promise<boolean>;
-  /** Gives a session that this tab has free. */
+  /** Releases a session that this tab holds. */
   release(session: string): void;
-  /** The sessions that tabs have, this one's among them. */
+  /** The sessions that tabs hold, this tab's among them. */
   open(): Promise<ReadonlySet<string>>;
 }
 
 const PREFIX = 'conemap-session-';
 
-/** The tabs as the browser's locks tell them. */
+/** The tabs, seen through the browser's locks. */
 export function browserTabs(locks: LockManager): Tabs {
   const releases = new Map<string, () => void>();
   return {
@@ -20,7 +20,7 @@ export function browserTabs(locks: LockManager): Tabs {
       new Promise((resolve) => {
         const request = locks.request(PREFIX + session, { signal: AbortSignal.timeout(patience) }, () => {
           resolve(true);
-          // The lock is held until this is settled, or the tab is gone.
+          // The lock is held until this promise is settled, or the tab is closed.
           return new Promise<void>((release) => {
             releases.set(session, release);
           });

@@ -1,19 +1,19 @@
-/** How a picture is turned, and turning it by hand. */
+/** The orientation of a picture, and how dragging turns it. */
 import type { Axis } from '../store/state.ts';
 
 export type Vector = readonly [number, number, number];
 
 /** Unit vectors in the mesh's coordinates. */
 export interface Axes {
-  /** To the right on the screen. */
+  /** The direction to the right on the screen. */
   readonly right: Vector;
-  /** Upwards on the screen. */
+  /** The direction upwards on the screen. */
   readonly up: Vector;
-  /** From the screen to the viewer. */
+  /** The direction from the screen to the viewer. */
   readonly back: Vector;
 }
 
-/** What a drag as long as the picture is high turns by, in radians; as in the views. */
+/** The angle by which a drag over the picture's height turns it, in radians; the same as in the views. */
 const TURN = 4;
 
 export function dot(a: Vector, b: Vector): number {
@@ -41,7 +41,7 @@ export function plus(a: Vector, b: Vector): Vector {
   return [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 }
 
-/** The same direction at length 1; a vector without length stays. */
+/** The same direction with length 1; the zero vector is returned unchanged. */
 export function unit(a: Vector): Vector {
   const length = Math.sqrt(dot(a, a));
   return length > 0 ? times(a, 1 / length) : a;
@@ -60,13 +60,13 @@ export function upVector(axis: Axis): Vector {
   return [at === 0 ? sign : 0, at === 1 ? sign : 0, at === 2 ? sign : 0];
 }
 
-/** The axes that the core tells: right, up and back, three numbers each. */
+/** The axes as the core returns them: right, up and back, three numbers each. */
 export function axesOf(numbers: Float32Array): Axes {
   const vector = (k: number): Vector => [numbers[k] ?? 0, numbers[k + 1] ?? 0, numbers[k + 2] ?? 0];
   return { right: vector(0), up: vector(3), back: vector(6) };
 }
 
-/** The same axes without what rounding has added, which would grow from turn to turn. */
+/** The axes made orthonormal again, since rounding errors would grow from turn to turn. */
 function squared({ up, back }: Axes): Axes {
   const [level, towards] = [unit(cross(up, back)), unit(back)];
   return { right: level, up: cross(towards, level), back: towards };

@@ -1,4 +1,7 @@
-/** The base domain of the map, to be turned and asked: its parts light up on the meshes, and the patch under the mouse lights up in it. */
+/**
+ * The base domain of the map as a picture that can be turned: its parts light up on the meshes, and the patch under the mouse lights up in
+ * it.
+ */
 import type { VNode } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import type { BaseOutput } from '../compute/messages.ts';
@@ -20,30 +23,30 @@ import { coneName, degrees, reading, summary } from './words.ts';
 
 export interface BaseDomainProps {
   readonly base: BaseOutput;
-  /** What the landmarks are called, in the order of the run. */
+  /** The names of the landmarks, in the order of the run. */
   readonly names: readonly string[];
   readonly hands: BaseHands;
   readonly theme: string;
-  /** Whether it turns with the views; else by itself. */
+  /** Whether the picture turns with the views; else it turns by itself. */
   readonly isLinked: boolean;
-  /** By side the axis of the mesh that points up. */
+  /** The axis of each mesh that points up. */
   readonly up: readonly [Vector, Vector];
-  /** The base triangle in whose patch the mouse is on a mesh, which the views light up themselves; `null` for none. */
+  /** The base triangle whose patch is under the mouse on a mesh, where the views light it up themselves; `null` for none. */
   readonly under: number | null;
   readonly parts: PartHands;
 }
 
 /** Size of an exported drawing, in pixels. */
 const EXPORTED = { width: 900, height: 700 };
-/** Pixels of a PNG to each of the drawing's. */
+/** How many pixels of a PNG stand for one of the drawing. */
 const PNG_TIMES = 2;
-/** What an arrow key turns by, in heights of the picture, and a zoom key multiplies by. */
+/** The turn of an arrow key, in heights of the picture, and the factor of a zoom key. */
 const KEY_TURN = 0.06;
 const KEY_ZOOM = 1.25;
 const ZOOMS = [1, 12] as const;
-/** How far a pointer may travel and still click, in pixels. */
+/** How far a pointer may move between press and release of a click, in pixels. */
 const CLICK_SLACK = 4;
-/** From ahead and a little above, while nothing is drawn. */
+/** The axes from the front, for use while nothing is drawn. */
 const FRONT: Axes = { right: [1, 0, 0], up: [0, 1, 0], back: [0, 0, 1] };
 
 const SHAPES = [['Target', 1], ['Source', 0]] as const;
@@ -107,7 +110,7 @@ function BallCircle({ ball, lit, palette }: { readonly ball: Ball; readonly lit:
   );
 }
 
-/** What is lit up seen through what is in front of it. */
+/** The part that is lit up, drawn through what is in front of it. */
 function Through({ solid, picture, lit, palette }: { readonly solid: Solid; readonly picture: Picture; readonly lit: BasePart | null; readonly palette: Palette }): VNode | null {
   const spot = (cone: number): Spot => picture.spots[cone] ?? { x: 0, y: 0 };
   const dashed = (d: string): VNode => <path d={d} stroke={palette.lit} stroke-width="1.5" stroke-dasharray="4 3" fill="none" />;
@@ -129,7 +132,7 @@ interface TagProps {
   readonly palette: Palette;
 }
 
-/** A cone's name and curvature beside it. */
+/** A cone's name and curvature, written beside it. */
 function Tag({ at, text, width, palette }: TagProps): VNode {
   const isLeft = at.x > width / 2;
   return (
@@ -181,7 +184,7 @@ function useTurning({ hands, isLinked, up }: Pick<BaseDomainProps, 'hands' | 'is
   };
 }
 
-/** What the picture shows and is asked for, and what hands and keys do to it. */
+/** What the picture shows, and what pointer and keys can do to it. */
 interface Desk {
   readonly solid: Solid;
   readonly picture: Picture;
@@ -190,11 +193,11 @@ interface Desk {
   readonly turn: Turning['turn'];
   readonly hover: (part: BasePart | null) => void;
   readonly hold: (part: BasePart | null) => void;
-  /** Multiplies its size; `null` for the whole. */
+  /** Multiplies the picture's size; `null` shows the whole. */
   readonly magnify: (factor: number | null) => void;
 }
 
-/** What a key does; `null` where it is not the picture's. */
+/** What a key does; `null` where the key is not one of the picture's. */
 function actionOf({ solid, held, turn, hold, magnify }: Desk, { key, shiftKey }: KeyboardEvent): (() => void) | null {
   const kind = PART_KEYS[key.toLowerCase()];
   if (kind !== undefined) {
@@ -229,7 +232,7 @@ function press(desk: Desk, event: KeyboardEvent): void {
 }
 
 interface Pointing {
-  /** Where the pointer was last, and how far it has come since it was pressed. */
+  /** The last position of the pointer, and how far it has moved since it was pressed. */
   readonly x: number;
   readonly y: number;
   readonly travelled: number;
@@ -237,7 +240,7 @@ interface Pointing {
 
 type PointerHandlers = Readonly<Record<'onPointerDown' | 'onPointerMove' | 'onPointerUp' | 'onPointerCancel' | 'onPointerLeave', (event: PointerEvent) => void>>;
 
-/** A drag turns the picture, a click holds a part, and what is under the pointer is asked for. */
+/** Handlers by which a drag turns the picture, a click selects a part, and the part under the pointer lights up. */
 function usePointer(svg: { readonly current: SVGSVGElement | null }, { picture, height, held, turn, hover, hold }: Desk): PointerHandlers {
   const pressed = useRef<Pointing | null>(null);
   const partUnder = (event: PointerEvent): BasePart | null => {
@@ -286,7 +289,7 @@ interface RowProps {
   readonly onSave: (format: 'svg' | 'png') => Promise<void>;
 }
 
-/** What is below the picture. */
+/** The row of controls below the picture. */
 function Row({ side, isLarge, onSide, onLarge, onSave }: RowProps): VNode {
   return (
     <div class="base-row">
@@ -339,7 +342,7 @@ interface ShapesProps {
   readonly width: number;
 }
 
-/** What is drawn. */
+/** The shapes of the picture. */
 function Shapes({ solid, picture, lit, palette, names, width }: ShapesProps): VNode {
   return (
     <>
@@ -362,7 +365,7 @@ function Shapes({ solid, picture, lit, palette, names, width }: ShapesProps): VN
   );
 }
 
-/** All of it. */
+/** The whole picture with its controls. */
 export default function BaseDomain(props: BaseDomainProps): VNode {
   const { base, names, hands, theme, under, parts } = props;
   const { lit, held, hold, hover } = parts;

@@ -1,4 +1,7 @@
-/** Another map of the same meshes and landmarks: chosen, waited for, and its figures beside those of the map on the page. */
+/**
+ * The comparison with another map of the same meshes and landmarks: the choice, the progress, and its figures beside those of the map on
+ * the page.
+ */
 import type { VNode } from 'preact';
 import type { OtherMap } from '../report.ts';
 import type { Comparison, Result } from '../store/state.ts';
@@ -12,7 +15,7 @@ export interface CompareProps {
   /** The map on the page. */
   readonly result: Result;
   readonly comparison: Comparison | null;
-  /** Compares it with another one; `null` for none. */
+  /** Compares the map on the page with another one; `null` ends the comparison. */
   readonly choose: (other: OtherMap | null) => void;
 }
 
@@ -83,7 +86,7 @@ function Compared({ result, comparison, choose }: CompareProps & { readonly comp
       return (
         <>
           <p role="status">Making the other map…</p>
-          <progress value={progress.share} aria-label="Share that is done" />
+          <progress value={progress.share} aria-label="Progress of the other map" />
           <div class="watched-row">
             <button
               type="button"
@@ -103,13 +106,13 @@ function Compared({ result, comparison, choose }: CompareProps & { readonly comp
       return (
         <>
           <Table result={result} comparison={comparison} />
-          <p class="quiet small">Both views show the source: the first with what this map carries from the target, the second with what the other one does.</p>
+          <p class="quiet small">Both views show the source: the first with what this map carries from the target, the second with what the other map carries.</p>
         </>
       );
   }
 }
 
-/** The choices, and what comes of them. */
+/** The choices, and the result of the chosen one. */
 export default function Compare(props: CompareProps): VNode {
   const { comparison } = props;
   return (

@@ -5,7 +5,7 @@ import type { Report } from '../report.ts';
 /** A figure of a map. */
 export interface Figure {
   readonly name: string;
-  /** What it means. */
+  /** What the figure means. */
   readonly note: string;
   readonly value: string;
 }
@@ -14,7 +14,7 @@ function stepsOf({ source, target }: Report['cone_metric']): string {
   return [source, target].map((flow) => (flow === null ? '–' : String(flow.newton_steps))).join(', ');
 }
 
-/** Whether the flows to both flat metrics came to the cones that were asked for. */
+/** Whether the flows to both flat metrics reached the cones that were asked for. */
 function haveConverged({ cone_metric: { source, target }, warnings }: Report): boolean {
   return source !== null && target !== null && !warnings.some(({ kind }) => kind === 'no_cone_metric');
 }
@@ -32,6 +32,6 @@ export function figuresOf(report: Report): readonly Figure[] {
     },
     { name: 'Mapped', note: 'Share of the source’s vertices that have an image', value: percent(1 - report.unmapped_share) },
     { name: 'Newton steps', note: 'Of the flows of source and target to their flat metrics', value: stepsOf(report.cone_metric) },
-    { name: 'Converged', note: 'Whether both flows came to the cones that were asked for', value: haveConverged(report) ? 'yes' : 'no' },
+    { name: 'Converged', note: 'Whether both flows reached the cones that were asked for', value: haveConverged(report) ? 'yes' : 'no' },
   ];
 }

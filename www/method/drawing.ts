@@ -1,4 +1,4 @@
-/** Colours of the base domain, and its picture as a file. */
+/** The colours of the base domain, and its picture as a file. */
 import type { Lighting, Shades } from '../colours.ts';
 import { FACE, GROUND, INK, LIT, LIT_FACE, NEGATIVE, POSITIVE, RIM, SIDE } from '../colours.ts';
 import { escaped } from '../svg.ts';
@@ -11,7 +11,7 @@ export interface Palette {
   readonly rim: string;
   readonly positive: string;
   readonly negative: string;
-  /** What is lit up; the meshes have the same. */
+  /** The colour of a part that is lit up, the same as on the meshes. */
   readonly lit: string;
   readonly litFace: Lighting;
   readonly ink: string;
@@ -35,7 +35,7 @@ function paletteOf(shade: keyof Shades): Palette {
 export const LIGHT = paletteOf('light');
 export const DARK = paletteOf('dark');
 
-/** A mixture of two colours: the first at share 0. */
+/** A mixture of two colours; share 0 gives the first. */
 export function mixed([from, to]: Lighting, share: number): string {
   const part = (k: 0 | 1 | 2): number => Math.round(from[k] + share * (to[k] - from[k]));
   return `rgb(${part(0)} ${part(1)} ${part(2)})`;
@@ -69,12 +69,12 @@ function ballMarkup({ at, radius, sign, isHidden }: Ball, name: string, palette:
   return `<circle cx="${at.x.toFixed(2)}" cy="${at.y.toFixed(2)}" r="${radius.toFixed(2)}" fill="${palette[sign]}" stroke="${palette.rim}"/>${label}`;
 }
 
-/** The picture as a drawing that stands alone, dark on white, with the names of the cones that are seen. */
+/** The picture as a self-contained SVG, dark on white, with the names of the visible cones. */
 export function pictureSvg(picture: Picture, size: { readonly width: number; readonly height: number }, names: readonly string[]): string {
   const { width, height } = size;
   const facets = picture.facets.map((facet) => {
     const fill = mixed(LIGHT.face, facet.light);
-    // A hair of its own colour closes the seam to the next facet.
+    // A thin stroke in the facet's own colour closes the seam to the next facet.
     return `<path d="${outline(facet)}" fill="${fill}" stroke="${fill}" stroke-width="0.6"/><path d="${strokes(facet)}" stroke="${LIGHT.side}" fill="none"/>`;
   });
   const balls = picture.balls.map((ball) => ballMarkup(ball, names[ball.cone] ?? String(ball.cone + 1), LIGHT));

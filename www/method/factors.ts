@@ -2,10 +2,10 @@
 import type { Flows, SideFlow } from '../compute/watch-messages.ts';
 import type { FactorPlaces, FlowFrame } from './hands.ts';
 
-/** This share of the vertices lies within the scale; the few beyond, at sharp cones, have its last colour. */
+/** The share of the vertices that lie within the scale; the few beyond it, at sharp cones, have its last colour. */
 const WITHIN = 0.98;
 
-/** How many vertices a flow tells of. */
+/** The number of vertices in a flow. */
 function vertexCount({ moments, logFactors }: SideFlow): number {
   return moments.length === 0 ? 0 : logFactors.length / moments.length;
 }
@@ -16,14 +16,14 @@ function momentOf(flow: SideFlow, moment: number): Float32Array {
   return flow.logFactors.subarray(at * count, (at + 1) * count);
 }
 
-/** How many moments the longer flow has. */
+/** The number of moments in the longer flow. */
 export function momentCount(flows: Flows): number {
   return Math.max(...flows.map(({ moments }) => moments.length));
 }
 
 /**
- * The end of the scale, which goes from its inverse through 1: a power of 2 that holds nearly all vertices of both meshes at the end of the
- * flows.
+ * The end of the scale, which goes from the inverse of its end through 1 to its end: a power of 2, so that nearly all vertices of both
+ * meshes lie within the scale at the end of the flows.
  */
 export function scaleEnd(flows: Flows): number {
   const sizes = flows.map((flow) => {
@@ -33,13 +33,13 @@ export function scaleEnd(flows: Flows): number {
   return 2 ** Math.max(1, Math.ceil(Math.max(...sizes) / Math.LN2 - 1e-6));
 }
 
-/** The renderer's colours of a scale, linear red, green and blue one after the other, as a gradient. */
+/** A CSS gradient of the renderer's colours, which are linear red, green and blue one after the other. */
 export function gradientOf(colours: Float32Array): string {
   const stops = Array.from({ length: colours.length / 3 }, (_, k) => `color(srgb-linear ${colours.slice(3 * k, 3 * k + 3).join(' ')})`);
   return `linear-gradient(90deg, ${stops.join(', ')})`;
 }
 
-/** Where the logarithm of a factor lies on the scale: 0 at the inverse of its end, 1/2 at 1, 1 at its end. */
+/** The place of a factor's logarithm on the scale: 0 at the inverse of the scale's end, 1/2 at 1, 1 at its end. */
 export function placeOf(logFactor: number, end: number): number {
   return 0.5 + logFactor / (2 * Math.log(end));
 }
@@ -49,13 +49,13 @@ function placesOf(flow: SideFlow, moment: number, end: number): FactorPlaces {
   return { from: places(moment), to: places(moment + 1) };
 }
 
-/** The radii of both meshes' circles at a moment, in units of the roots of the meshes' areas; `null` where the flows have no circles. */
+/** The radii of both meshes' circles at a moment, in units of the root of each mesh's area; `null` where the flows have no circles. */
 export function radiiAt(flows: Flows, moment: number): readonly [Float32Array, Float32Array] | null {
   const radii = (flow: SideFlow): Float32Array => momentOf(flow, moment).map((logFactor, v) => (flow.radii[v] ?? 0) * Math.exp(logFactor));
   return flows.some((flow) => flow.radii.length === 0) ? null : [radii(flows[0]), radii(flows[1])];
 }
 
-/** The places of both meshes at a moment and the next one; a flow that has ended stays at its last moment. */
+/** The places of both meshes' vertices on the scale at a moment and the next one; a flow that has ended stays at its last moment. */
 export function placesAt(flows: Flows, moment: number, end: number): FlowFrame['places'] {
   return [placesOf(flows[0], moment, end), placesOf(flows[1], moment, end)];
 }

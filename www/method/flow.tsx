@@ -1,4 +1,4 @@
-/** The flows of both meshes to their flat metrics, played: the conformal factor as colour, the curvature error falling. */
+/** Plays the flows of both meshes to their flat metrics: the conformal factor as colour, and the falling curvature error. */
 import type { VNode } from 'preact';
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import type { FlowMoment, Flows, SideFlow } from '../compute/watch-messages.ts';
@@ -20,11 +20,11 @@ import { Computed, Transport } from './watched.tsx';
 
 export interface FlowPlayerProps {
   readonly hands: FlowHands;
-  /** Leaves the flows. */
+  /** Closes the flows. */
   readonly onClose: () => void;
 }
 
-/** From one Newton step to the next, in ms. */
+/** The time from one Newton step to the next, in ms. */
 const STEP_TIME = 1100;
 
 const SIDES = [
@@ -32,7 +32,7 @@ const SIDES = [
   ['Target', 1, 'second'],
 ] as const;
 
-/** Slow at both ends. */
+/** A share of time that runs slowly at both ends. */
 function eased(share: number): number {
   return (1 - Math.cos(Math.PI * share)) / 2;
 }
@@ -52,7 +52,7 @@ function Scale({ end }: { readonly end: number }): VNode {
 
 const BOX = { width: 288, height: 120, left: 44, right: 280, top: 8, bottom: 96 };
 
-/** The curvature error by step, with a line where the time is. */
+/** A plot of the curvature error against the step, with a line at the present time. */
 function Residuals({ flows, time }: { readonly flows: Flows; readonly time: number }): VNode {
   const [low, high] = residualRange(flows);
   const last = Math.max(1, ...flows.map(({ moments }) => moments.at(-1)?.step ?? 0));
@@ -125,15 +125,15 @@ function Numbers({ flows, moment }: { readonly flows: Flows; readonly moment: nu
   );
 }
 
-/** What a view shows of the triangles that stopped a flow; `null` where none did. */
+/** The marks in a view of the triangles that stopped a flow; `null` where none did. */
 function stopsOf({ stops, packedStops }: SideFlow): MeshDefects | null {
   return stops.length === 0 ? null : unpackDefects(packedStops);
 }
 
-/** So many triangles have a button of their own. */
+/** The most triangles that have a button of their own. */
 const LISTED = 6;
 
-/** Where the flows stopped, marked on the meshes. */
+/** The triangles at which the flows stopped, marked on the meshes. */
 function Stops({ flows, hands }: { readonly flows: Flows; readonly hands: FlowHands }): VNode | null {
   const [marked, setMarked] = useState<readonly [MeshDefects | null, MeshDefects | null]>([null, null]);
   useEffect(() => {
@@ -236,7 +236,7 @@ function Player({ flows, hands, onClose }: FlowPlayerProps & { readonly flows: F
   );
 }
 
-/** The flows by the structure that is chosen, once they are computed. */
+/** The flows with the chosen structure, once they are computed. */
 export default function FlowPlayer({ hands, onClose }: FlowPlayerProps): VNode {
   const [scheme, setScheme] = useState<Scheme>(USUAL_SCHEME);
   return (

@@ -1,15 +1,15 @@
 /**
- * Triangles in space in an order in which a painter can lay them over each other, from wherever one looks: a binary space partition
- * (Fuchs, Kedem and Naylor 1980). Triangles that reach through the plane of another one are cut there, so that the order is right also
- * where they cross.
+ * Sorts triangles in space by a binary space partition, so that from any direction a painter can draw them over each other from the
+ * farthest to the nearest (Fuchs, Kedem and Naylor 1980). A triangle that crosses the plane of another one is cut there, so that the order
+ * is also right where triangles cross.
  */
 import type { Vector } from './axes.ts';
 import { between, cross, dot, minus, unit } from './axes.ts';
 
-/** A corner of a fragment with the side that begins there. */
+/** A corner of a fragment, with the side of the triangle that begins there. */
 export interface Corner {
   readonly at: Vector;
-  /** The number of the triangle's side; `null` where the triangle was cut. */
+  /** The number of the triangle's side; `null` where the border runs along a cut. */
   readonly side: number | null;
 }
 
@@ -17,12 +17,12 @@ export interface Corner {
 export interface Fragment {
   /** The number of the triangle. */
   readonly face: number;
-  /** Of length 1; of length 0 where the triangle has no area. */
+  /** The unit normal; the zero vector where the triangle has no area. */
   readonly normal: Vector;
   readonly corners: readonly Corner[];
 }
 
-/** Fragments by the plane of the first of them. */
+/** A tree of fragments, divided by the plane of one of them. */
 export interface PaintTree {
   readonly normal: Vector;
   readonly inPlane: readonly Fragment[];
@@ -36,15 +36,18 @@ export interface Triangle {
   readonly sides: readonly [number, number, number];
 }
 
-/** What is nearer to a plane than this share of the whole lies in it: a little more than rounding to single precision. */
+/**
+ * Points nearer to a plane than this share of the whole size count as in the plane; it is a little more than the rounding error of single
+ * precision.
+ */
 const IN_PLANE = 1e-5;
-/** So many planes are tried at most to find the one that cuts least. */
+/** The most planes that are tried to find the one that cuts the fewest fragments. */
 const TRIED = 24;
 
 interface Plane {
   readonly normal: Vector;
   readonly offset: number;
-  /** What is nearer lies in it. */
+  /** Points nearer than this count as in the plane. */
   readonly slack: number;
 }
 
@@ -52,7 +55,7 @@ function planeOf({ normal, corners }: Fragment, slack: number): Plane {
   return { normal, offset: dot(normal, corners[0]?.at ?? [0, 0, 0]), slack };
 }
 
-/** Before the plane 1, behind it -1, in it 0. */
+/** 1 before the plane, -1 behind it, 0 in it. */
 function sideOf({ normal, offset, slack }: Plane, at: Vector): -1 | 0 | 1 {
   const distance = dot(normal, at) - offset;
   return distance > slack ? 1 : distance < -slack ? -1 : 0;
@@ -60,7 +63,7 @@ function sideOf({ normal, offset, slack }: Plane, at: Vector): -1 | 0 | 1 {
 
 type Halves = Readonly<Record<'before' | 'behind', Fragment | null>>;
 
-/** The part of a fragment on one side of a plane that it reaches through. */
+/** The part on one side of a plane of a fragment that crosses it. */
 function partOf(fragment: Fragment, plane: Plane, wanted: -1 | 1): Fragment {
   const { corners } = fragment;
   const found: Corner[] = [];
@@ -79,7 +82,7 @@ function partOf(fragment: Fragment, plane: Plane, wanted: -1 | 1): Fragment {
       }
     } else {
       if (here === 0) {
-        // From the plane on the border goes along the cut, or back to the wanted side.
+        // From a corner in the plane the border runs along the cut, or back to the wanted side.
         found.push(there === wanted ? corner : { at: corner.at, side: null });
       }
       if (crosses) {
@@ -90,7 +93,7 @@ function partOf(fragment: Fragment, plane: Plane, wanted: -1 | 1): Fragment {
   return { ...fragment, corners: found };
 }
 
-/** A fragment on both sides of a plane; where it lies in the plane, `null` on both. */
+/** The parts of a fragment before and behind a plane; both are `null` where it lies in the plane. */
 function halves(fragment: Fragment, plane: Plane): Halves {
   const sides = fragment.corners.map(({ at }) => sideOf(plane, at));
   const [before, behind] = [sides.includes(1), sides.includes(-1)];
@@ -100,7 +103,7 @@ function halves(fragment: Fragment, plane: Plane): Halves {
   return { before: before ? fragment : null, behind: behind ? fragment : null };
 }
 
-/** The fragment whose plane cuts the fewest others. */
+/** Among the fragments that are tried, the one whose plane cuts the fewest others; `null` where none has an area. */
 function leastCutting(fragments: readonly Fragment[], slack: number): Fragment | null {
   const flat = fragments.filter(({ normal }) => dot(normal, normal) > 0);
   const step = Math.max(1, Math.floor(flat.length / TRIED));
@@ -128,7 +131,7 @@ function tree(fragments: readonly Fragment[], slack: number): PaintTree | null {
   }
   const root = leastCutting(fragments, slack);
   if (root === null) {
-    // Triangles without area hide nothing.
+    // Triangles without area hide nothing, so their order does not matter.
     return { normal: [0, 0, 0], inPlane: fragments, before: null, behind: null };
   }
   const plane = planeOf(root, slack);
@@ -150,7 +153,7 @@ function tree(fragments: readonly Fragment[], slack: number): PaintTree | null {
   return { normal: plane.normal, inPlane, before: tree(before, slack), behind: tree(behind, slack) };
 }
 
-/** The tree of triangles; `null` where there are none. */
+/** The tree of some triangles; `null` where there are none. */
 export function paintTree(triangles: readonly Triangle[]): PaintTree | null {
   const corners = triangles.flatMap((triangle) => triangle.corners);
   const size = Math.max(0, ...[0, 1, 2].map((k) => {
@@ -165,7 +168,7 @@ export function paintTree(triangles: readonly Triangle[]): PaintTree | null {
   return tree(fragments, IN_PLANE * size);
 }
 
-/** The fragments from the farthest to the nearest, seen from far away in this direction. */
+/** The fragments from the farthest to the nearest, for a viewer far away in this direction. */
 export function fromBehind(root: PaintTree | null, towardsViewer: Vector): readonly Fragment[] {
   if (root === null) {
     return [];

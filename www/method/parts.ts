@@ -1,17 +1,17 @@
-/** Parts of the base domain, and what they are on the meshes. */
+/** The parts of the base domain, and what stands for them on the meshes. */
 import type { BaseOutput } from '../compute/messages.ts';
 
-/** A vertex, a side or a triangle of the base domain, by its number. */
+/** A cone (vertex), a side or a triangle of the base domain, by its number. */
 export interface BasePart {
   readonly kind: 'cone' | 'side' | 'face';
   readonly index: number;
 }
 
-/** What lights up on the meshes. */
+/** What is lit up on the meshes. */
 export interface LitParts {
-  /** A patch, by the number of its base triangle. */
+  /** The patch that is lit up, by the number of its base triangle; `null` for none. */
   readonly patch: number | null;
-  /** Patch lines. */
+  /** The patch lines that are lit up. */
   readonly lines: readonly number[];
 }
 
@@ -19,7 +19,7 @@ function at(array: Uint32Array, index: number): number {
   return array[index] ?? 0;
 }
 
-/** How many triangles there are. */
+/** The number of triangles in a base domain. */
 export function faceCount({ triangles }: BaseOutput): number {
   return triangles.length / 3;
 }
@@ -44,7 +44,10 @@ export function endsOfSides(base: BaseOutput): readonly (readonly [number, numbe
   return ends;
 }
 
-/** What lights up with a part: of a triangle its patch with its border, of a side its path, of a cone the paths that meet there. */
+/**
+ * What is lit up on the meshes for a part: for a triangle its patch and the patch's border, for a side its path, for a cone the paths that
+ * meet there.
+ */
 export function litBy(base: BaseOutput, part: BasePart | null): LitParts {
   if (part === null) {
     return { patch: null, lines: [] };
@@ -59,20 +62,20 @@ export function litBy(base: BaseOutput, part: BasePart | null): LitParts {
   }
 }
 
-/** What is lit up and held, and how a picture changes it. */
+/** The parts that are lit up and held, and the functions by which a picture changes them. */
 export interface PartHands {
-  /** What is lit up: under the mouse on a mesh or on a picture, else what is held. */
+  /** The part that is lit up: the one under the mouse on a mesh or a picture, or else the held one. */
   readonly lit: BasePart | null;
   readonly held: BasePart | null;
-  /** What is under the mouse on a picture; `null` for nothing. */
+  /** Reports the part under the mouse on a picture; `null` for none. */
   readonly hover: (part: BasePart | null) => void;
   readonly hold: (part: BasePart | null) => void;
 }
 
-/** The keys that go from part to part, with Shift backwards. */
+/** The keys that step from part to part, with Shift backwards. */
 export const PART_KEYS: Readonly<Partial<Record<string, BasePart['kind']>>> = { v: 'cone', e: 'side', f: 'face' };
 
-/** The next or the last part of a kind. */
+/** The part of a kind after a given one, or before it. */
 export function stepped(part: BasePart | null, kind: BasePart['kind'], by: 1 | -1, count: number): BasePart {
   const index = part?.kind === kind ? part.index + by : by > 0 ? 0 : count - 1;
   return { kind, index: (index + count) % count };

@@ -1,4 +1,4 @@
-/** The base domain as a flat picture: triangles in light, their sides, and balls at the cones. */
+/** The base domain as a flat picture: shaded triangles, their sides, and balls at the cones. */
 import type { BaseOutput } from '../compute/messages.ts';
 import type { Side } from '../landmarks.ts';
 import type { Axes, Vector } from './axes.ts';
@@ -11,25 +11,25 @@ import { conesOfFace, endsOfSides, faceCount, sidesOfFace } from './parts.ts';
 /** A base domain in the shape of one mesh, ready to be drawn from any side. */
 export interface Solid {
   readonly base: BaseOutput;
-  /** Where the cones are. */
+  /** The positions of the cones. */
   readonly cones: readonly Vector[];
-  /** In radians. */
+  /** The curvatures of the cones, in radians. */
   readonly curvatures: readonly number[];
-  /** By side the cones that it joins. */
+  /** The two cones that each side joins. */
   readonly ends: readonly (readonly [number, number])[];
   readonly tree: PaintTree | null;
-  /** The middle of the picture, and how far the farthest cone is from it. */
+  /** The middle of the picture, and the distance of the farthest cone from it. */
   readonly middle: Vector;
   readonly radius: number;
 }
 
-/** Where one looks from. */
+/** How the base domain is viewed. */
 export interface Look {
   readonly axes: Axes;
   /** Size of the picture, in pixels. */
   readonly width: number;
   readonly height: number;
-  /** 1 where the whole just fits. */
+  /** The zoom; at 1 the whole just fits. */
   readonly zoom: number;
 }
 
@@ -39,13 +39,13 @@ export interface Spot {
   readonly y: number;
 }
 
-/** A part of a triangle as it is seen. */
+/** A fragment of a triangle as it is seen. */
 export interface Facet {
   readonly face: number;
   readonly corners: readonly Spot[];
-  /** The sides that border it, with the corners that they run between. */
+  /** The sides of the triangle that border the facet, with the corners between which they run. */
   readonly sides: readonly { readonly side: number; readonly from: Spot; readonly to: Spot }[];
-  /** How light it is, 0 to 1. */
+  /** How light the facet is, from 0 to 1. */
   readonly light: number;
 }
 
@@ -53,28 +53,28 @@ export interface Facet {
 export interface Ball {
   readonly cone: number;
   readonly at: Spot;
-  /** In pixels. */
+  /** The radius in pixels. */
   readonly radius: number;
   readonly sign: 'positive' | 'negative';
-  /** Whether a triangle is in front of it. */
+  /** Whether a triangle hides it. */
   readonly isHidden: boolean;
 }
 
 export interface Picture {
-  /** From the farthest to the nearest. */
+  /** The facets from the farthest to the nearest. */
   readonly facets: readonly Facet[];
-  /** Likewise. */
+  /** The balls from the farthest to the nearest. */
   readonly balls: readonly Ball[];
-  /** Where each cone is. */
+  /** The place of each cone. */
   readonly spots: readonly Spot[];
 }
 
-/** The share of the picture that the whole fills; the balls need the rest. */
+/** The share of the picture's size that the whole fills; the balls need the rest. */
 const FILLED = 0.86;
-/** Radius of a flat cone's ball, and what the largest curvature adds, in pixels of a picture 300 high. */
+/** The radius of a flat cone's ball, and the growth up to the largest curvature, in pixels of a picture of height 300. */
 const BALL = 3;
 const GROWTH = 7;
-/** How near the pointer must be to a side, in pixels. */
+/** How near the pointer must be to a side to mean it, in pixels. */
 const REACH = 5;
 
 function vectorsOf(numbers: Float32Array): readonly Vector[] {
@@ -109,7 +109,7 @@ function projection({ middle, radius }: Solid, { axes, width, height, zoom }: Lo
   };
 }
 
-/** A soft key light from the upper left of the viewer, as in the views. */
+/** How light a triangle is under a soft key light from the viewer's upper left, as in the views. */
 function lightOn(normal: Vector, { right, up, back }: Axes): number {
   const key = unit(plus(back, plus(times(up, 0.75), times(right, -0.55))));
   const seen = dot(normal, back) < 0 ? times(normal, -1) : normal;
@@ -131,7 +131,7 @@ function hides([a, b, c]: readonly [Vector, Vector, Vector], at: Vector, towards
   return u >= 0 && v >= 0 && u + v <= 1 && dot(q, g) / volume > slack;
 }
 
-/** Radius of a cone's ball, in pixels of a picture 300 high. */
+/** The radius of a cone's ball, in pixels of a picture of height 300. */
 export function ballRadius(curvature: number): number {
   return BALL + GROWTH * Math.sqrt(Math.min(1, Math.abs(curvature) / (2 * Math.PI)));
 }
@@ -164,7 +164,7 @@ function facetOf({ face, normal, corners }: Fragment, axes: Axes, place: (at: Ve
   return { face, corners: spots, sides, light: lightOn(normal, axes) };
 }
 
-/** What is seen from somewhere. */
+/** The picture of a base domain from a given direction. */
 export function pictureOf(solid: Solid, look: Look): Picture {
   const place = projection(solid, look);
   const spots = solid.cones.map(place);
@@ -187,7 +187,10 @@ function distanceTo({ from, to }: { readonly from: Spot; readonly to: Spot }, { 
   return Math.hypot(x - from.x - share * dx, y - from.y - share * dy);
 }
 
-/** What is under the pointer: the nearest ball that is not hidden, a side of what is in front, the triangle there; `null` beside all. */
+/**
+ * The part under the pointer: the nearest ball that is not hidden, else a side of a visible facet, else the triangle there; `null` beside
+ * all of them.
+ */
 export function partAt({ facets, balls }: Picture, at: Spot): BasePart | null {
   const ball = balls.findLast((each) => !each.isHidden && Math.hypot(each.at.x - at.x, each.at.y - at.y) <= each.radius + 2);
   if (ball !== undefined) {

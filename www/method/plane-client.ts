@@ -1,4 +1,4 @@
-/** The worker that lays the flat metrics out, which stays as long as they are looked at. */
+/** Starts the worker that lays the flat metrics out in the plane; it runs as long as they are looked at. */
 import type { With } from '../compute/core.ts';
 import { postWithCore } from '../compute/core.ts';
 import type { Failure } from '../compute/messages.ts';
@@ -15,7 +15,7 @@ export interface PlaneListener {
   readonly failed: (failure: Failure) => void;
 }
 
-/** Starts the worker; the returned function ends it, and nothing is heard or answered any more. */
+/** Starts the worker; the returned function ends it, and after that nothing is reported or answered. */
 export function startPlanes(request: With<PlaneRequest>, listener: PlaneListener): () => void {
   const worker = new Worker(new URL('./plane-worker.ts', import.meta.url), { type: 'module' });
   const waiting = new Map<number, (answer: PlaneAnswers[keyof PlaneAnswers]) => void>();
@@ -25,7 +25,7 @@ export function startPlanes(request: With<PlaneRequest>, listener: PlaneListener
     ask: <K extends keyof PlaneQuestions>(kind: K, question: PlaneQuestions[K]) =>
       new Promise<PlaneAnswers[K]>((resolve) => {
         asked += 1;
-        // The worker answers what it was asked.
+        // The worker's answer is always of the type that its question asks for.
         waiting.set(asked, resolve as (answer: PlaneAnswers[keyof PlaneAnswers]) => void);
         worker.postMessage({ kind, number: asked, question });
       }),

@@ -1,4 +1,4 @@
-/** A mesh in the plane as pixels and as files; drawn in a worker. */
+/** Draws a mesh in the plane, in a worker: as pixels, as SVG, and as an OBJ file. */
 import { ACCENT, CUT, PAPER } from '../colours.ts';
 import { escaped } from '../svg.ts';
 import type { Palette } from './drawing.ts';
@@ -8,16 +8,16 @@ import { ballRadius } from './picture.ts';
 import type { PlaneFrame } from './plane-messages.ts';
 import type { Segment, Sheet, Spot } from './sheet.ts';
 
-/** How light a triangle of the plane is, between shade and full light. */
+/** The share of full light with which all triangles of the plane are drawn. */
 const LIGHTNESS = 0.85;
-/** A circle smaller than this is not drawn, in pixels. */
+/** The radius below which a circle is not drawn, in pixels. */
 const LEAST_CIRCLE = 0.35;
-/** Edges are drawn where a triangle has about so many pixels. */
+/** Edges are drawn where the mean size of a triangle is more than this, in pixels. */
 const EDGES_FROM = 5;
-/** Margin of a picture that shows the whole, in pixels. */
+/** The margin of a picture that shows the whole, in pixels. */
 const MARGIN = 14;
 
-/** How the whole is brought into a picture. */
+/** The middle and the scale at which the whole fits into a picture. */
 export function fitted([left, low, right, high]: Sheet['box'], { width, height }: { readonly width: number; readonly height: number }, density = 1): Pick<PlaneFrame, 'x' | 'y' | 'scale'> {
   const room = (size: number): number => Math.max(1, size - 2 * MARGIN * density);
   const scale = Math.min(room(width) / Math.max(right - left, 1e-9), room(height) / Math.max(high - low, 1e-9));
@@ -50,7 +50,7 @@ function strokeSegments(context: Context, frame: Placing, segments: readonly Seg
   context.stroke();
 }
 
-/** Draws one mesh; what is placed already stays as long as the view does. */
+/** Draws one mesh. Triangles that were drawn stay drawn as long as the view does not change. */
 export class PlanePainter {
   readonly #sheet: Sheet;
   readonly #curvatures: Float64Array;
@@ -63,7 +63,7 @@ export class PlanePainter {
     this.#curvatures = curvatures;
   }
 
-  /** The picture. */
+  /** Draws a frame. */
   draw(frame: PlaneFrame): OffscreenCanvas {
     const canvas = new OffscreenCanvas(frame.width, frame.height);
     const context = canvas.getContext('2d');
@@ -80,7 +80,7 @@ export class PlanePainter {
     return canvas;
   }
 
-  /** Brings the triangles up to date. */
+  /** Draws the triangles that have been added since the last frame. */
   #lay(frame: PlaneFrame, palette: Palette): void {
     const { width, height, x, y, scale, look, shown } = frame;
     const key = [width, height, x, y, scale, look].join(' ');
@@ -100,7 +100,7 @@ export class PlanePainter {
     const fill = mixed(palette.face, LIGHTNESS);
     context.fillStyle = fill;
     context.strokeStyle = fill;
-    // A hair of its own colour closes the seams.
+    // A thin stroke in the triangles' own colour closes the seams between them.
     context.lineWidth = 0.6;
     context.fill();
     context.stroke();
@@ -144,7 +144,7 @@ export class PlanePainter {
     this.#cones(context, frame, palette);
   }
 
-  /** The circles of the packing. */
+  /** Draws the circles of the packing. */
   #circles(context: Context, frame: PlaneFrame): void {
     const { growth, mesh, pointWhen } = this.#sheet;
     context.beginPath();
@@ -157,7 +157,7 @@ export class PlanePainter {
       }
     });
     context.strokeStyle = ACCENT[frame.look];
-    // Hardly thicker than a circle is wide, or small ones would hide what is beneath.
+    // The strokes must not be much thicker than small circles are wide, or they would hide what is beneath.
     context.lineWidth = Math.min(frame.density, Math.max(0.3, (0.15 * frame.scale) / Math.sqrt(growth.vertices.length)));
     context.stroke();
   }
@@ -180,7 +180,7 @@ export class PlanePainter {
   }
 }
 
-/** A little smaller than in the base domain's picture: most cones are there twice. */
+/** The radius of a cone's ball in pixels, a little smaller than in the base domain's picture, since most cones appear twice. */
 function coneRadius(curvature: number): number {
   return 0.75 * ballRadius(curvature);
 }
@@ -189,7 +189,7 @@ function isLit(lit: BasePart | null, cone: number): boolean {
   return lit?.kind === 'cone' && lit.index === cone;
 }
 
-/** What an exported drawing has. */
+/** What an exported drawing contains. */
 export interface DrawnPlane {
   readonly curvatures: Float64Array;
   readonly names: readonly string[];
@@ -197,10 +197,10 @@ export interface DrawnPlane {
   readonly shown: number;
 }
 
-/** Size of an exported drawing, in pixels. */
+/** The size of an exported drawing, in pixels. */
 export const PLANE_SIZE = { width: 900, height: 700 };
 
-/** The plane as a drawing that stands alone, dark on white: its triangles, the circles, patch lines, cut and cones as groups. */
+/** The plane as a self-contained SVG, dark on white: its triangles, circles, patch lines, cut and cones as groups. */
 export function planeSvg(sheet: Sheet, { curvatures, names, circles, shown }: DrawnPlane): string {
   const placing: Placing = { ...PLANE_SIZE, ...fitted(sheet.box, PLANE_SIZE) };
   const pair = (at: Spot): string => across(placing, at).map((x) => x.toFixed(2)).join(' ');
@@ -231,7 +231,7 @@ export function planeSvg(sheet: Sheet, { curvatures, names, circles, shown }: Dr
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${PLANE_SIZE.width}" height="${PLANE_SIZE.height}" viewBox="0 0 ${PLANE_SIZE.width} ${PLANE_SIZE.height}" font-family="system-ui, sans-serif" font-size="11" stroke-linejoin="round" stroke-linecap="round"><title>The flat metric in the plane</title><rect width="100%" height="100%" fill="${LIGHT.ground}"/>${groups.join('')}</svg>\n`;
 }
 
-/** The mesh with its places in the plane as texture coordinates, cut where the layout is. */
+/** The mesh as an OBJ file with its places in the plane as texture coordinates, cut where the layout is. */
 export function planeObj({ mesh, growth }: Sheet): string {
   const triples = (numbers: Float32Array, size: number, word: string): string[] =>
     Array.from({ length: numbers.length / size }, (_, k) => `${word} ${[...numbers.subarray(size * k, size * k + size)].join(' ')}`);

@@ -1,4 +1,4 @@
-/** Both flat metrics in the plane: the flows once, then layouts and pictures as they are asked for. */
+/** The worker of the flat metrics in the plane: it computes the flows once, then layouts and pictures as they are asked for. */
 import { PAPER } from '../colours.ts';
 import { failureOf } from '../compute/messages.ts';
 import { progressListener } from '../compute/progress-listener.ts';
@@ -12,7 +12,7 @@ import { Sheet } from './sheet.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
-/** Pixels of a saved picture to each of the drawing's. */
+/** How many pixels of a saved picture stand for one of the drawing. */
 const SAVED_DENSITY = 2;
 
 interface Desk {
@@ -22,7 +22,7 @@ interface Desk {
   sides: readonly [Laid, Laid];
 }
 
-/** One mesh in the plane with who draws it. */
+/** One mesh in the plane, with its painter. */
 interface Laid {
   readonly sheet: Sheet;
   readonly painter: PlanePainter;
@@ -48,7 +48,7 @@ function meshOf(planes: FlatPlanes, side: Side): MappedMesh {
   };
 }
 
-/** A mesh grown from the middle of a patch. */
+/** The layout of a mesh, grown from the middle of a patch. */
 function laidFrom({ planes, request, meshes }: Omit<Desk, 'sides'>, side: Side, patch: number): Laid {
   const middle = request.base?.shapes[side].patchMiddles[patch] ?? 0;
   const grown = planes.grow(side, Math.max(0, meshes[side].checkedFaces.indexOf(middle)));

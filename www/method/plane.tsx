@@ -16,29 +16,29 @@ import { Computed, Transport } from './watched.tsx';
 
 export interface PlaneProps {
   readonly hands: { readonly start: (listener: Listener<Planes>) => () => void };
-  /** What the landmarks are called, in the order of the run. */
+  /** The names of the landmarks, in the order of the run. */
   readonly names: readonly string[];
   readonly theme: string;
   readonly parts: PartHands;
   /** How many parts of each kind the base domain has. */
   readonly counts: Readonly<Record<BasePart['kind'], number>>;
-  /** Leaves it. */
+  /** Closes the layouts. */
   readonly onClose: () => void;
 }
 
-/** The whole growth takes about so long, in ms, and one ring at least so long. */
+/** The time of the whole growth, in ms, and the least time of one ring. */
 const GROWING = 6000;
 const LEAST_RING = 40;
-/** How near the pointer must be to a side, in pixels. */
+/** How near the pointer must be to a side to mean it, in pixels. */
 const REACH = 5;
-/** How far a pointer may travel and still click, in pixels. */
+/** How far a pointer may move between press and release of a click, in pixels. */
 const CLICK_SLACK = 4;
 const KEY_MOVE = 40;
 const KEY_ZOOM = 1.25;
 const BUTTON_ZOOM = 1.6;
 const WHEEL_ZOOM = 0.0015;
 const ZOOMS = [0.5, 400] as const;
-/** Room around the whole, in pixels. */
+/** The margin around the whole, in pixels. */
 const MARGIN = 14;
 
 const SIDES = [['Source', 0], ['Target', 1]] as const;
@@ -46,7 +46,10 @@ const SIDES = [['Source', 0], ['Target', 1]] as const;
 const HELP =
   'Arrow keys move it, plus and minus change its size, 0 shows all, v, e and f go to the next corner, side and triangle of the base domain; from a triangle’s patch the layout grows.';
 
-/** What a view looks at: a place of the plane, and the size as a multiple of that at which the whole fits; `null` for the whole. */
+/**
+ * The part of the plane that a picture shows: the point in its middle, and the zoom as a multiple of the size at which the whole fits;
+ * `null` shows the whole.
+ */
 interface View {
   readonly x: number;
   readonly y: number;
@@ -79,7 +82,7 @@ function useSize(element: { readonly current: HTMLCanvasElement | null }): Size 
   return size;
 }
 
-/** Asks for the latest of many things, one at a time. */
+/** A function that answers one question at a time; of the questions that come meanwhile it answers only the latest. */
 function useLatest<Q>(answer: (question: Q) => Promise<void>): (question: Q) => void {
   const waiting = useRef<{ question: Q } | null>(null);
   const busy = useRef(false);
@@ -105,7 +108,7 @@ function useLatest<Q>(answer: (question: Q) => Promise<void>): (question: Q) => 
   };
 }
 
-/** Where the view looks, in pixels of the page per unit of the plane. */
+/** The middle and the scale of a view, in pixels of the page per unit of the plane. */
 function placing(view: View | null, [left, low, right, high]: GrownSide['box'], { width, height }: Size): Pick<PlaneFrame, 'x' | 'y' | 'scale'> {
   const fit = Math.min(Math.max(1, width - 2 * MARGIN) / Math.max(right - left, 1e-9), Math.max(1, height - 2 * MARGIN) / Math.max(high - low, 1e-9));
   return view === null ? { x: (left + right) / 2, y: (low + high) / 2, scale: fit } : { x: view.x, y: view.y, scale: view.zoom * fit };
@@ -121,13 +124,13 @@ interface PictureProps extends Pick<PlaneProps, 'parts' | 'counts'> {
   readonly look: PlaneFrame['look'];
 }
 
-/** Where a view looks, and how hands change it. */
+/** The part of the plane that a picture shows, and the functions that change it. */
 interface Looking extends Pick<PlaneFrame, 'x' | 'y' | 'scale'> {
   readonly isWhole: boolean;
   readonly showAll: () => void;
-  /** Moves what is seen, in pixels. */
+  /** Moves the picture, in pixels. */
   readonly move: (dx: number, dy: number) => void;
-  /** Multiplies its size; what is under this point of the picture, in pixels from its middle, stays. */
+  /** Multiplies the picture's size; the point at (dx, dy), in pixels from the picture's middle, stays where it is. */
   readonly zoom: (factor: number, dx?: number, dy?: number) => void;
 }
 
@@ -154,7 +157,7 @@ function useLooking(grown: GrownSide, size: Size): Looking {
   };
 }
 
-/** Has the picture drawn as it changes, the latest first. */
+/** Has the picture drawn whenever it changes; frames that were overtaken are skipped. */
 function useDrawn(canvas: { readonly current: HTMLCanvasElement | null }, { side, planes, grown, shown, circles, look, parts }: PictureProps, size: Size, { x, y, scale }: Looking): void {
   const density = Math.min(2, window.devicePixelRatio);
   const draw = useLatest(async (frame: PlaneFrame) => {
@@ -169,7 +172,7 @@ function useDrawn(canvas: { readonly current: HTMLCanvasElement | null }, { side
   }, [grown, size, x, y, scale, shown, lit?.kind, lit?.index, circles, look]);
 }
 
-/** What a key does; nothing where it is not the picture's. */
+/** What a key does; `undefined` where the key is not one of the picture's. */
 function actionOf({ key, shiftKey }: KeyboardEvent, { parts, counts }: PictureProps, { move, zoom, showAll }: Looking): (() => void) | undefined {
   const kind = PART_KEYS[key.toLowerCase()];
   if (kind !== undefined && counts[kind] > 0) {
@@ -192,7 +195,7 @@ function actionOf({ key, shiftKey }: KeyboardEvent, { parts, counts }: PicturePr
 
 type PointerHandlers = Readonly<Record<'onPointerDown' | 'onPointerMove' | 'onPointerUp' | 'onPointerCancel' | 'onPointerLeave', (event: PointerEvent) => void>>;
 
-/** A drag moves the picture, a click holds a part, and what is under the pointer is asked for. */
+/** Handlers by which a drag moves the picture, a click holds a part, and the part under the pointer lights up. */
 function usePointer(canvas: { readonly current: HTMLCanvasElement | null }, { side, planes, shown, parts }: PictureProps, size: Size, { x, y, scale, move }: Looking): PointerHandlers {
   const isOver = useRef(false);
   const pressed = useRef<{ readonly x: number; readonly y: number; readonly travelled: number } | null>(null);
@@ -240,7 +243,7 @@ function usePointer(canvas: { readonly current: HTMLCanvasElement | null }, { si
   };
 }
 
-/** The buttons below a picture, for who has neither wheel nor keys. */
+/** The caption with buttons for users who have neither a wheel nor keys. */
 function Caption({ name, looking: { zoom, showAll } }: { readonly name: string; readonly looking: Looking }): VNode {
   const plane = `the plane of the ${name.toLowerCase()}`;
   return (
@@ -259,7 +262,7 @@ function Caption({ name, looking: { zoom, showAll } }: { readonly name: string; 
   );
 }
 
-/** One mesh in the plane. */
+/** The picture of one mesh in the plane. */
 function PlanePicture(props: PictureProps): VNode {
   const { name, side, grown } = props;
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -285,7 +288,7 @@ function PlanePicture(props: PictureProps): VNode {
         }}
         {...usePointer(canvas, props, size, looking)}
         onWheel={(event) => {
-          // The panel scrolls on where nobody has clicked before.
+          // The wheel scrolls the panel unless the picture was clicked before.
           if (document.activeElement !== event.currentTarget && !event.ctrlKey) {
             return;
           }
@@ -299,7 +302,7 @@ function PlanePicture(props: PictureProps): VNode {
   );
 }
 
-/** How many triangles of a mesh are there at a ring. */
+/** The number of a mesh's triangles that are placed up to a ring. */
 function countAt({ rings }: GrownSide, ring: number): number {
   return rings[Math.min(ring, rings.length - 1)] ?? 0;
 }
@@ -310,7 +313,7 @@ interface FilesProps extends Pick<PlaneProps, 'names'> {
   readonly shown: readonly [number, number];
 }
 
-/** Saves one of both as a picture, a drawing or a mesh. */
+/** Saves the layout of one mesh as PNG, SVG or OBJ. */
 function Files({ planes, names, circles, shown }: FilesProps): VNode {
   const [side, setSide] = useState<Side>(1);
   const save = async (format: PlaneFileWish['format']): Promise<void> => {
@@ -350,7 +353,7 @@ function Files({ planes, names, circles, shown }: FilesProps): VNode {
   );
 }
 
-/** What the whole is in one sentence. */
+/** A sentence about both layouts. */
 function summary(grown: Grown, isDone: boolean): string {
   const turned = grown[0].turnedOver + grown[1].turnedOver;
   const crossing = turned === 0 ? '' : ` ${integer(turned)} triangles lie turned over: straight edges of the meshes cross there in the flat metric.`;
@@ -360,7 +363,7 @@ function summary(grown: Grown, isDone: boolean): string {
 interface PlayerProps extends Omit<PlaneProps, 'hands'> {
   readonly planes: Planes;
   readonly grown: Grown;
-  /** Changes where the layout has grown anew. */
+  /** The seed of the growth. A new seed means that the layouts have grown anew. */
   readonly seed: number | null;
 }
 
@@ -369,7 +372,8 @@ function Player({ planes, grown, seed, names, theme, parts, counts, onClose }: P
   const last = Math.max(...grown.map(({ rings }) => rings.length - 1));
   const { time, isPlaying, rest, toggle, restart } = usePlayed(last, Math.max(LEAST_RING, GROWING / last));
   useLayoutEffect(() => {
-    // At first the whole is there; what is chosen then grows, but where motion is not wanted. Before anything of it is drawn.
+    // At first the whole is shown. A newly chosen patch plays its growth, except where the user wants less motion. This is decided before
+    // anything of the new layout is drawn.
     if (seed === null || window.matchMedia('(prefers-reduced-motion: reduce)').matches) {
       rest(last);
     } else {

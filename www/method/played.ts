@@ -1,8 +1,8 @@
-/** A time in steps that plays to its end. */
+/** A time, counted in steps, that plays to its end. */
 import { useEffect, useRef, useState } from 'preact/hooks';
 
 export interface Played {
-  /** In steps; between two of them while it plays, where motion is wanted. */
+  /** The time in steps; it lies between two steps only while it plays, and only where the user does not ask for less motion. */
   readonly time: number;
   readonly isPlaying: boolean;
   /** Stops at a time. */
@@ -13,7 +13,7 @@ export interface Played {
   readonly restart: () => void;
 }
 
-/** From 0 to the last step, each taking this time in ms. */
+/** A time from 0 to the last step; each step takes `stepTime` ms. */
 export function usePlayed(last: number, stepTime: number): Played {
   const [time, setTime] = useState(0);
   const [isPlaying, setPlaying] = useState(false);

@@ -1,21 +1,21 @@
-/** One mesh in the plane with what is drawn on it: its cut, the patch lines, the patches, the cones. */
+/** One mesh in the plane with everything that is drawn on it: the cut, the patch lines, the patches and the cones. */
 import type { BaseOutput } from '../compute/messages.ts';
 import type { Side } from '../landmarks.ts';
 import type { BasePart } from './parts.ts';
 
-/** A mapped mesh as the core tells it. */
+/** A mapped mesh as the core returns it. */
 export interface MappedMesh {
   readonly triangles: Uint32Array;
   readonly positions: Float32Array;
-  /** By triangle the face of the checked mesh that contains it. */
+  /** The face of the checked mesh that contains each triangle. */
   readonly checkedFaces: Uint32Array;
   /** The vertex of each landmark. */
   readonly landmarks: Uint32Array;
-  /** By vertex the radius of its circle, in units of the plane. */
+  /** The radius of each vertex's circle, in units of the plane. */
   readonly radii: Float32Array;
 }
 
-/** Its layout as the core tells it. */
+/** The layout of the mesh as the core returns it. */
 export interface Growth {
   readonly points: Float32Array;
   readonly vertices: Uint32Array;
@@ -30,7 +30,7 @@ export interface Growth {
 export interface Segment {
   readonly from: Spot;
   readonly to: Spot;
-  /** It is there when so many triangles are placed. */
+  /** The number of placed triangles from which on the segment is drawn. */
   readonly when: number;
 }
 
@@ -39,20 +39,20 @@ export interface BorderSegment extends Segment {
   readonly side: number;
 }
 
-/** A place of a landmark's cone; on the cut it has several. */
+/** A place of a landmark's cone; a cone on the cut has several places. */
 export interface ConeSpot {
   readonly cone: number;
   readonly at: Spot;
   readonly when: number;
 }
 
-/** A place of the plane, y up. */
+/** A place of the plane; y points up. */
 export interface Spot {
   readonly x: number;
   readonly y: number;
 }
 
-/** A part of a patch in the plane. */
+/** A part of a patch in the plane, as a triangle. */
 export interface PatchPart {
   readonly corners: readonly [Spot, Spot, Spot];
   readonly when: number;
@@ -60,13 +60,13 @@ export interface PatchPart {
 
 type Weights = readonly [number, number, number];
 
-/** Runs of numbers by key, one after the other. */
+/** For each key a list of numbers; the lists lie one after the other in `items`. */
 interface Runs {
   readonly starts: Uint32Array;
   readonly items: Uint32Array;
 }
 
-/** The places at which each key stands. */
+/** The indices at which each key stands. */
 function runsOf(keys: Uint32Array): Runs {
   const starts = new Uint32Array(keys.reduce((most, key) => Math.max(most, key), 0) + 2);
   keys.forEach((key) => {
@@ -89,7 +89,7 @@ function run({ starts, items }: Runs, key: number): Uint32Array {
   return items.subarray(starts[key] ?? 0, starts[key + 1] ?? 0);
 }
 
-/** The point of a segment nearest to a place, as a distance. */
+/** The distance of a place from a segment. */
 function distanceTo({ from, to }: Segment, { x, y }: Spot): number {
   const [dx, dy] = [to.x - from.x, to.y - from.y];
   const length = dx * dx + dy * dy;
@@ -109,9 +109,9 @@ const NOWHERE: Spot = { x: 0, y: 0 };
 export class Sheet {
   readonly mesh: MappedMesh;
   readonly growth: Growth;
-  /** By triangle how many are placed once it is. */
+  /** For each triangle, the number of triangles that are placed once it is. */
   readonly when: Uint32Array;
-  /** Likewise by place. */
+  /** For each point of the layout, the number of triangles that are placed once the point is. */
   readonly pointWhen: Uint32Array;
   readonly cuts: readonly Segment[];
   readonly borders: readonly BorderSegment[];
@@ -119,7 +119,7 @@ export class Sheet {
   readonly box: readonly [number, number, number, number];
   readonly #base: BaseOutput | null;
   readonly #side: Side;
-  /** Triangles by the face of the checked mesh, and parts of patches likewise. */
+  /** The triangles in each face of the checked mesh, and the parts of patches in each of these faces. */
   readonly #children: Runs;
   readonly #parts: Runs;
 
@@ -145,7 +145,7 @@ export class Sheet {
     this.cones = this.#cones();
   }
 
-  /** Where a place is that the layout has by number. */
+  /** The place of a point of the layout. */
   spot(point: number): Spot {
     return { x: this.growth.points[2 * point] ?? 0, y: this.growth.points[2 * point + 1] ?? 0 };
   }
@@ -163,7 +163,7 @@ export class Sheet {
     return Array.from({ length: (patchStarts?.[index + 1] ?? 0) - begin }, (_, k) => this.#part(begin + k));
   }
 
-  /** What of the base domain is near a place. */
+  /** The part of the base domain near a place; `null` where none is near. */
   partAt(at: Spot, reach: number, shown: number): BasePart | null {
     const cone = this.cones.find((each) => each.when <= shown && Math.hypot(each.at.x - at.x, each.at.y - at.y) <= 1.6 * reach);
     if (cone !== undefined) {
@@ -191,7 +191,7 @@ export class Sheet {
     return null;
   }
 
-  /** Turns the plane so that the first side of the seed's patch runs to the right: both meshes lie alike. */
+  /** Turns the plane so that the first side of the seed's patch points to the right, and both meshes lie alike. */
   #turn(seed: number): void {
     const first = this.#borders((corner) => corner === 3 * seed);
     const [x, y] = first.reduce<readonly [number, number]>(([sx, sy], { from, to }) => [sx + to.x - from.x, sy + to.y - from.y], [0, 0]);
@@ -218,7 +218,7 @@ export class Sheet {
     return box;
   }
 
-  /** An edge of the cut is there when both its triangles are. */
+  /** The edges of the cut; each is drawn once both its triangles are placed. */
   #cuts(): readonly Segment[] {
     const { cut, corners } = this.growth;
     const { triangles, landmarks } = this.mesh;
@@ -241,7 +241,7 @@ export class Sheet {
     }));
   }
 
-  /** The patch lines, piece by piece, of the base triangles' corners that are wanted. */
+  /** The pieces of the patch lines that begin at the wanted corners of base triangles. */
   #borders(wanted: (corner: number) => boolean): readonly BorderSegment[] {
     const base = this.#base;
     if (base === null) {
@@ -274,7 +274,7 @@ export class Sheet {
     return { corners: [spots[0] ?? NOWHERE, spots[1] ?? NOWHERE, spots[2] ?? NOWHERE], when };
   }
 
-  /** Points of the patches in a face of the checked mesh, in the plane of the triangle that holds their middle. */
+  /** The places in the plane of points that lie in one face of the checked mesh; all are placed by the triangle that holds their middle. */
   #placed(face: number, points: readonly number[]): { readonly spots: readonly Spot[]; readonly when: number } {
     const places = points.map((point) => this.#placeOf(point));
     const middle = [0, 1, 2].map((k) => places.reduce((sum, place) => sum + (place[k] ?? 0), 0) / places.length);
@@ -300,7 +300,7 @@ export class Sheet {
     return [...(this.#base?.shapes[this.#side].patchPoints.subarray(3 * point, 3 * point + 3) ?? [])];
   }
 
-  /** Barycentric coordinates in a triangle in space of the point of its plane nearest to a place. */
+  /** The barycentric coordinates, in a triangle in space, of the point of its plane that is nearest to a place. */
   #weights(face: number, place: readonly number[]): Weights {
     const corner = (k: number): readonly number[] => {
       const v = this.mesh.triangles[3 * face + k] ?? 0;

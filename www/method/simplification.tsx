@@ -1,4 +1,4 @@
-/** How both meshes are simplified to their landmarks, played on them. */
+/** Plays on both meshes how they are simplified to their landmarks. */
 import type { VNode } from 'preact';
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import type { Simplifications, SimplifiedFrom } from '../compute/watch-messages.ts';
@@ -16,15 +16,15 @@ type Place = readonly [number, number, number];
 
 export interface SimplificationPlayerProps {
   readonly hands: SimplificationHands;
-  /** The place under the mouse on both meshes, in the files' coordinates; `null` while it is elsewhere. */
+  /** The place under the mouse on both meshes, in the files' coordinates; `null` while the mouse is on neither. */
   readonly places: readonly [Place, Place] | null;
-  /** Whether the map can draw one mesh on the other: it has a map file. */
+  /** Whether the map has a map file, by which the triangles of one mesh can be drawn on the other. */
   readonly isCarried: boolean;
-  /** Leaves it. */
+  /** Closes the simplification. */
   readonly onClose: () => void;
 }
 
-/** From one stage to the next, in ms. */
+/** The time from one stage to the next, in ms. */
 const STAGE_TIME = 160;
 
 interface PlayerProps extends Omit<SimplificationPlayerProps, 'isCarried'> {
@@ -47,7 +47,7 @@ function trailAt(found: Simplifications, side: Side, places: SimplificationPlaye
   return { steps, trail: trailOf(found[side], vertex, steps) };
 }
 
-/** The history of the vertices under the mouse, in words. */
+/** A sentence about the history of the vertices under the mouse. */
 function historyWords(found: Simplifications, trails: readonly [Trail | null, Trail | null]): string {
   const of = (name: string, side: Side): string => {
     const steps = trails[side]?.steps ?? [];
@@ -103,7 +103,7 @@ const CHOICES: Readonly<Record<SimplifiedFrom, { readonly text: string; readonly
   both: { text: 'Jointly', about: 'The source is simplified where both shapes change least; the map carries its triangles to the target.' },
 };
 
-/** The stages, once they are computed, of what is chosen. */
+/** The stages of the chosen simplification, once they are computed. */
 export default function SimplificationPlayer({ hands, places, isCarried, onClose }: SimplificationPlayerProps): VNode {
   const [from, setFrom] = useState<SimplifiedFrom>('each');
   return (

@@ -1,13 +1,13 @@
-/** The discrete conformal structures by which a flow can go. */
+/** The discrete conformal structures with which a flow can be computed. */
 import type { Scheme } from '../report.ts';
 
-/** A structure in words. */
+/** The name of a structure, and a sentence about it. */
 export interface Structure {
   readonly name: string;
   readonly about: string;
 }
 
-/** All of them, that of the texture first. */
+/** All structures, the one of the texture first. */
 export const STRUCTURES: Readonly<Record<Scheme, Structure>> = {
   inversive: {
     name: 'Inversive distance',

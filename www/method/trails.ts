@@ -1,15 +1,18 @@
-/** The histories of vertices in a simplification: each goes onto another one, which goes onto another one, until a landmark. */
+/**
+ * The histories of vertices in a simplification: each vertex is collapsed onto another one, and that onto a further one, until a landmark
+ * is reached.
+ */
 import type { Simplification } from '../compute/watch-messages.ts';
 
 /** A step of a vertex's history. */
 export interface Step {
-  /** The vertex that stands for it from now on. */
+  /** The vertex that stands for the first one from now on. */
   readonly vertex: number;
   /** The number of the collapse, from 1. */
   readonly collapse: number;
 }
 
-/** By vertex the collapse in which it went, from 0, or -1 where it stays. */
+/** The number of the collapse, from 0, in which each vertex was removed; -1 where the vertex stays. */
 const GONE = new WeakMap<Simplification, Int32Array>();
 
 function goneOf(found: Simplification): Int32Array {
@@ -25,7 +28,7 @@ function goneOf(found: Simplification): Int32Array {
   return gone;
 }
 
-/** The vertex that is nearest to a place. */
+/** The vertex nearest to a place. */
 export function nearestVertex({ positions }: Simplification, [x, y, z]: readonly [number, number, number]): number {
   let [best, least] = [0, Infinity];
   for (let at = 0; at < positions.length; at += 3) {
@@ -38,7 +41,7 @@ export function nearestVertex({ positions }: Simplification, [x, y, z]: readonly
   return best;
 }
 
-/** The history of a vertex, in the order of its collapses; none of one that stays. */
+/** The history of a vertex, in the order of its collapses; empty for a vertex that stays. */
 export function historyOf(found: Simplification, vertex: number): readonly Step[] {
   const gone = goneOf(found);
   const steps: Step[] = [];
@@ -48,7 +51,7 @@ export function historyOf(found: Simplification, vertex: number): readonly Step[
   return steps;
 }
 
-/** The places that a vertex takes, its own first, three numbers each. */
+/** The positions of a vertex and of those that stand for it after each collapse, three numbers each. */
 export function trailOf({ positions }: Simplification, vertex: number, history: readonly Step[]): Float32Array {
   return Float32Array.from([vertex, ...history.map((step) => step.vertex)].flatMap((v) => [...positions.subarray(3 * v, 3 * v + 3)]));
 }

@@ -1,13 +1,13 @@
-/** What is shown of a part of the method while it is computed, and then. */
+/** The frame of a part of the method that is watched: its progress while it is computed, then its content. */
 import type { ComponentChildren, VNode } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import type { Listener } from './hands.ts';
 import './watched.css';
 
 interface ComputedProps<T> {
-  /** Begins; returns what ends it. */
+  /** Begins the computation; the returned function ends it. */
   readonly hands: { readonly start: (listener: Listener<T>) => () => void };
-  /** What is done meanwhile, in words. */
+  /** A sentence about what is computed. */
   readonly sentence: string;
   readonly onClose: () => void;
   readonly children: (answer: T) => ComponentChildren;
@@ -18,7 +18,7 @@ type State<T> =
   | { readonly kind: 'failed'; readonly sentence: string }
   | { readonly kind: 'there'; readonly answer: T };
 
-/** Computes it from when it is drawn until it is drawn no more. */
+/** Computes the part from when it is first drawn until it is removed from the page. */
 export function Computed<T>({ hands, sentence, onClose, children }: ComputedProps<T>): VNode {
   const [state, setState] = useState<State<T>>({ kind: 'running', share: 0 });
   useEffect(
@@ -52,7 +52,7 @@ export function Computed<T>({ hands, sentence, onClose, children }: ComputedProp
       return (
         <div class="watched">
           <p role="status">{sentence}</p>
-          <progress value={state.share} aria-label="Share that is done" />
+          <progress value={state.share} aria-label="Progress" />
           <div class="watched-row">
             <button type="button" onClick={onClose}>
               Cancel
@@ -64,18 +64,18 @@ export function Computed<T>({ hands, sentence, onClose, children }: ComputedProp
 }
 
 interface TransportProps {
-  /** In the buttons' and the slider's names: `flow`, `simplification`. */
+  /** The word in the names of the buttons and the slider, such as `flow` or `simplification`. */
   readonly name: string;
   readonly last: number;
   readonly time: number;
   readonly isPlaying: boolean;
-  /** What the slider tells of its place. */
+  /** The text of the slider's place, for screen readers. */
   readonly words: string;
   readonly rest: (time: number) => void;
   readonly toggle: () => void;
 }
 
-/** A button that plays, and a slider. */
+/** A button that plays, and a slider for the time. */
 export function Transport({ name, last, time, isPlaying, words, rest, toggle }: TransportProps): VNode {
   return (
     <div class="watched-row">

@@ -1,20 +1,20 @@
-/** Parts of the base domain in words. */
+/** Sentences about the parts of the base domain. */
 import type { BasePart } from './parts.ts';
 import { conesOfFace } from './parts.ts';
 import type { Solid } from './picture.ts';
 
-/** An angle in degrees with its sign, as curvatures are told. */
+/** An angle in degrees with its sign, as curvatures are written. */
 export function degrees(radians: number): string {
   const angle = Math.round((radians * 1800) / Math.PI) / 10;
   return `${angle > 0 ? '+' : angle < 0 ? '−' : ''}${Math.abs(angle).toFixed(1)}°`;
 }
 
-/** What a cone is called: by its landmark, or as the program's own. */
+/** The name of a cone: that of its landmark, or `own` with a number for a cone that the program has added. */
 export function coneName(names: readonly string[], cone: number): string {
   return names[cone] ?? `own ${cone + 1 - names.length}`;
 }
 
-/** What a part is, and what lights up with it. */
+/** A sentence about a part, and about what lights up with it. */
 export function reading({ base, curvatures, ends }: Solid, part: BasePart, names: readonly string[]): string {
   const name = (cone: number): string => coneName(names, cone);
   switch (part.kind) {
@@ -32,7 +32,7 @@ export function reading({ base, curvatures, ends }: Solid, part: BasePart, names
   }
 }
 
-/** The whole in one sentence. */
+/** A sentence about the whole base domain. */
 export function summary({ curvatures, ends, base }: Solid): string {
   const positive = curvatures.filter((curvature) => curvature >= 0).length;
   const sum = curvatures.reduce((total, curvature) => total + curvature, 0);

@@ -8,7 +8,7 @@ import { build } from 'vite';
 import type { KeptFile, Precache } from './precache.ts';
 
 const FILE = 'service-worker.js';
-/** What some hosts read and none serves. */
+/** A file that some hosts read as settings and none serves. */
 const HEADERS = '_headers';
 const ENTRY = fileURLToPath(new URL('service-worker.ts', import.meta.url));
 
@@ -51,7 +51,7 @@ export async function writeServiceWorker(folder: string, target: string | string
   writeFileSync(join(folder, FILE), await bundled(precacheOf(folder), target));
 }
 
-/** The plugin. It reads what was written, so that the list holds the very bytes that will be served. */
+/** The plugin for the bundler. It reads the files after they are written, so that the list holds the very bytes that will be served. */
 export function serviceWorker(): Plugin {
   let folder = '';
   let target: string | string[] = [];

@@ -1,24 +1,27 @@
-/** What the built page consists of, and where a visit without a network finds it. */
+/** The list of the built page's files, and how a visit without a network finds them in the cache. */
 
 /** A file of the built page. */
 export interface KeptFile {
   /** Its path from the page's folder; empty for the page itself. */
   readonly path: string;
-  /** SHA-256 of its bytes as the browser checks it: `sha256-` and base64. */
+  /** The SHA-256 hash of its bytes in the form that the browser checks: `sha256-` and base64. */
   readonly integrity: string;
 }
 
 /** One build of the page, put into the service worker when it is built. */
 export interface Precache {
-  /** Tells builds apart. */
+  /** The version, which is different for every build. */
   readonly version: string;
   readonly files: readonly KeptFile[];
 }
 
-/** What the page says to a service worker that waits for its turn. */
+/** The message by which the page tells a waiting service worker to take over. */
 export const TAKE_OVER = 'take over';
 
-/** Names of the caches of one page: two pages of one host, in different folders, leave each other alone. */
+/**
+ * The beginning of the names of a page's caches. It holds the page's folder, so that two pages of one host do not touch each other's
+ * caches.
+ */
 function prefix(scope: string): string {
   return `conemap ${scope} `;
 }
@@ -29,8 +32,8 @@ export function cacheName(scope: string, version: string): string {
 }
 
 /**
- * The caches that nobody needs, from all in the order of their making. Beside the present build's the one before it
- * stays: a tab that still shows it may ask for its later parts.
+ * The caches that are no longer needed, from the names of all caches, the oldest first. The cache before the present build's stays: a tab
+ * that still shows the older build may ask for parts of it later.
  */
 export function outdated(names: readonly string[], scope: string, version: string): string[] {
   const present = cacheName(scope, version);
@@ -44,8 +47,8 @@ export function isHashed(path: string): boolean {
 }
 
 /**
- * The path of a request that the cache answers; `null` where it is none of the page's files. The page itself is asked for
- * by its folder or by its name, with whatever behind a question mark.
+ * The path of a request that the cache answers; `null` where the request is for no file of the page. The page itself can be asked for by
+ * its folder or by its name, with any query behind a question mark.
  */
 export function keptPath(request: Pick<Request, 'method' | 'mode' | 'url'>, scope: string, precache: Precache): string | null {
   if (request.method !== 'GET' || !request.url.startsWith(scope)) {

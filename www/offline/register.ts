@@ -1,13 +1,13 @@
-/** Keeps the page for visits without a network, and tells of new builds of it. */
+/** Keeps the page in the browser for visits without a network, and reports new builds of it. */
 import { TAKE_OVER } from './precache.ts';
 
-/** How often a page that stays open asks for a new build when it is looked at again, in ms. */
+/** The least time between two checks for a new build, in ms; a page that stays open checks when the user comes back to it. */
 const ASKED_EVERY = 3_600_000;
 
-/** The new build takes over, and the page begins anew with it. */
+/** Lets the new build take over, and reloads the page with it. */
 function takeOver(waiting: ServiceWorker): void {
   if (waiting.state !== 'installed') {
-    // Another tab was first.
+    // Another tab has already let the new build take over.
     location.reload();
     return;
   }
@@ -21,7 +21,7 @@ function takeOver(waiting: ServiceWorker): void {
   waiting.postMessage(TAKE_OVER);
 }
 
-/** Calls `isNew` with each build that waits for its turn; on the first visit there is none before it, and nothing to tell. */
+/** Calls `isNew` with each build that waits to take over. On the first visit there is no older build, and so nothing to report. */
 function watch(registration: ServiceWorkerRegistration, isNew: (waiting: ServiceWorker) => void): void {
   const told = (candidate: ServiceWorker | null): void => {
     if (candidate?.state === 'installed' && navigator.serviceWorker.controller !== null) {
@@ -42,15 +42,15 @@ function askAgain(registration: ServiceWorkerRegistration): void {
   document.addEventListener('visibilitychange', () => {
     if (document.visibilityState === 'visible' && Date.now() - last > ASKED_EVERY) {
       last = Date.now();
-      // Without a network there is nothing to hear.
+      // Without a network the check fails, which does not matter.
       registration.update().catch(() => undefined);
     }
   });
 }
 
 /**
- * Keeps the built page in the browser, where it allows that; `isNew` hears of a newer build, with what reloads the page
- * into it. The page that is being developed is not kept.
+ * Keeps the built page in the browser, where that is allowed. `isNew` is called when there is a newer build, with a function that reloads
+ * the page into it. A page in development is not kept.
  */
 export async function keepOffline(isNew: (reload: () => void) => void): Promise<void> {
   if (!import.meta.env.PROD || !('serviceWorker' in navigator)) {
@@ -65,7 +65,7 @@ export async function keepOffline(isNew: (reload: () => void) => void): Promise<
     });
     askAgain(registration);
   } catch (thrown) {
-    // A browser that keeps nothing, as in a private window, shows the page all the same.
+    // A browser that keeps nothing, as in a private window, can still show the page.
     console.warn(thrown);
   }
 }

@@ -1,32 +1,32 @@
 /**
- * Keeps the built page for visits without a network. All its files are fetched once when a build is first met and checked
- * against their hashes; from then on they come from the cache, all from one build. A new build waits until every tab of the
- * old one is closed, or until the page says that it may take over.
+ * The service worker, which keeps the built page for visits without a network. When a build is first met, all its files are fetched once
+ * and checked against their hashes; from then on they come from the cache, all from one build. A new build waits until every tab of the old
+ * one is closed, or until the page tells it to take over.
  */
 import { cacheName, isHashed, keptPath, outdated, TAKE_OVER } from './precache.ts';
 import type { KeptFile, Precache } from './precache.ts';
 
-/** Put here by the build. */
+/** The list of files, which the build inserts here. */
 declare const PRECACHE: Precache;
 
 const worker = self as unknown as ServiceWorkerGlobalScope;
 const { scope } = worker.registration;
 const NAME = cacheName(scope, PRECACHE.version);
-/** Servers say of files that they vary with what the browser takes; the page's do not. */
+/** Servers say that files vary with the headers of the request (`Vary`); the page's files do not. */
 const ANY_VARIANT = { ignoreVary: true };
 
-/** The file as the server has it; how the browser's own cache may answer for it is told by `cache`. */
+/** A file from the server; `cache` says how far the browser's own cache may answer. */
 async function fetched({ path, integrity }: KeptFile, cache: RequestCache): Promise<Response> {
   const url = `${scope}${path}`;
   const response = await fetch(url, { integrity, cache });
   if (!response.ok) {
     throw new Error(`${url}: ${response.status}`);
   }
-  // A browser shows no page whose copy says that it was reached by a detour.
+  // Browsers refuse to show a page from a cached response that is marked as redirected, so the mark is removed.
   return response.redirected ? new Response(response.body, { headers: response.headers }) : response;
 }
 
-/** Keeps the file as the server has it now; of a file whose name holds its hash, an earlier build's copy is as good. */
+/** Puts a file from the server into the cache. Where the file's name holds its hash, a copy from an earlier build is used instead. */
 async function keep(cache: Cache, file: KeptFile): Promise<void> {
   const url = `${scope}${file.path}`;
   const earlier = isHashed(file.path) ? await caches.match(url, ANY_VARIANT) : undefined;
@@ -37,7 +37,8 @@ async function keep(cache: Cache, file: KeptFile): Promise<void> {
   try {
     await cache.put(url, await fetched(file, isHashed(file.path) ? 'default' : 'no-cache'));
   } catch {
-    // One answer of many that broke off is not the end of all; this one passes by what the browser may have half of.
+    // One broken download among many must not fail the whole; the second try bypasses the browser's cache, which may hold a part of the
+    // file.
     await cache.put(url, await fetched(file, 'reload'));
   }
 }

@@ -1,31 +1,32 @@
 /**
- * A coarse map painted in small: each place of the source has a colour by where it is, and its image on the target has the same.
+ * Paints a coarse map as a thumbnail: each place of the source is coloured by its position, and its image on the target has the same
+ * colour.
  */
 import type { AnswerPicture } from '../compute/match-messages.ts';
 import type { Side } from '../landmarks.ts';
 import type { Axes, Vector } from '../method/axes.ts';
 import { cross, dot, minus, unit } from '../method/axes.ts';
 
-/** A triangle as it is seen. */
+/** A triangle as it is seen by the viewer. */
 export interface Seen {
-  /** To the right and upwards from the middle, from -1 to 1. */
+  /** The corners, to the right and upwards from the middle, from -1 to 1. */
   readonly corners: readonly (readonly [number, number])[];
-  /** Towards the viewer. */
+  /** How far the triangle is towards the viewer. */
   readonly depth: number;
-  /** Red, green and blue, 0 to 255. */
+  /** The colour: red, green and blue, 0 to 255. */
   readonly colour: Vector;
 }
 
-/** What a face has of its colour that is seen from the side; one that is seen from the front has all. */
+/** The share of its colour that a face keeps when it is seen edge-on; a face that is seen from the front keeps all of it. */
 const LEAST_LIGHT = 0.55;
-/** Colours go from this to 255 less this. */
+/** The least value of a colour's channel; the largest is 255 less this. */
 const DARKEST = 30;
 
 function at(places: Float32Array, vertex: number): Vector {
   return [places[3 * vertex] ?? 0, places[3 * vertex + 1] ?? 0, places[3 * vertex + 2] ?? 0];
 }
 
-/** By vertex a colour, by where it is in the box of all. */
+/** A colour for each vertex, by its position in the bounding box of all vertices. */
 function coloursOf(places: Float32Array): Vector[] {
   const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
   places.forEach((value, index) => {
@@ -64,17 +65,17 @@ export function seenOf({ triangles, places }: AnswerPicture, side: Side, { right
   return seen.sort((one, other) => one.depth - other.depth);
 }
 
-/** Where on a canvas a picture is, in pixels. */
+/** The part of a canvas that a picture fills, in pixels. */
 export interface Frame {
   readonly middle: readonly [number, number];
   readonly width: number;
   readonly height: number;
 }
 
-/** What of a frame stays free on all sides together. */
+/** The share of a frame's width and height that stays free, both margins together. */
 const MARGIN = 0.06;
 
-/** Pixels of a unit, so that all of the triangles fit a frame. */
+/** The number of pixels per unit at which all triangles fit into a frame. */
 export function scaleOf(seen: readonly Seen[], { width, height }: Frame): number {
   const farthest = (k: 0 | 1): number =>
     seen.reduce((far, { corners }) => corners.reduce((most, corner) => Math.max(most, Math.abs(corner[k])), far), 1e-9);
@@ -96,7 +97,7 @@ export function paint(context: CanvasRenderingContext2D, seen: readonly Seen[], 
     });
     context.closePath();
     context.fill();
-    // Neighbours would leave a hair between them.
+    // Without a stroke, thin gaps would show between neighbours.
     context.stroke();
   }
 }

@@ -1,4 +1,4 @@
-/** What an answer of a search for landmarks looks like: both meshes in small, turned as the views are. */
+/** The thumbnail of an answer of a search for landmarks: both meshes, turned as the views are. */
 import type { VNode } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import type { AnswerPicture as Picture } from '../compute/match-messages.ts';
@@ -11,9 +11,9 @@ interface AnswerPictureProps {
   readonly views: TurnedViews;
 }
 
-/** Of the half of the picture that a mesh has, in pixels of the page. */
+/** The size of the half of the picture that one mesh has, in pixels of the page. */
 const [WIDTH, HEIGHT] = [116, 84];
-/** While the views turn it is painted as often as this, in ms. */
+/** The least time between two paintings while the views turn, in ms. */
 const PAUSE = 80;
 
 function draw(canvas: HTMLCanvasElement, picture: Picture, views: TurnedViews): void {
@@ -29,7 +29,10 @@ function draw(canvas: HTMLCanvasElement, picture: Picture, views: TurnedViews): 
   }
 }
 
-/** Source and target of one answer, the target in the colours that the source's places have. It is painted only where it is in sight. */
+/**
+ * The source and the target of one answer, the target in the colours of the matching places on the source. It is painted only while it is
+ * in sight.
+ */
 export function AnswerPicture({ picture, views }: AnswerPictureProps): VNode {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {

@@ -27,7 +27,7 @@ const loadPlane = lateModule(() => import('../method/plane.tsx'));
 function BaseOf({ state, actions, shell, result, names, parts }: OfResult): VNode {
   const { base } = result.output;
   if (base === null) {
-    return <p class="quiet">This map does not tell how its base domain lies on the meshes.</p>;
+    return <p class="quiet">It is not known how the base domain of this map lies on the meshes.</p>;
   }
   const given: BaseDomainProps = {
     ...{ base, names, parts },
@@ -107,7 +107,7 @@ function PicturesOf(props: PartProps & { readonly result: Result }): VNode {
   );
 }
 
-/** The base domain of the map on the page and its flat metrics, or what to do to have them. */
+/** The base domain of the map on the page and its flat metrics; where there is no map, a sentence about how to get one. */
 export function BaseView(props: PartProps): VNode {
   const result = shownResult(props.state);
   return result === null ? (

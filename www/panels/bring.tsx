@@ -1,4 +1,6 @@
-/** Bringing values, curves, a texture or poses of one mesh onto the other: chosen, brought by a worker, and saved. */
+/**
+ * The section that brings values, curves, a texture or poses of one mesh onto the other: files are chosen, brought by a worker, and saved.
+ */
 import type { VNode } from 'preact';
 import { useEffect, useReducer, useRef } from 'preact/hooks';
 import type { Choices, DeskState, Given, Role } from '../bring/desk.ts';
@@ -11,7 +13,7 @@ import type { Actions, PartProps } from './actions.ts';
 import type { Choice } from './controls.tsx';
 import { choicesOf, Select } from './controls.tsx';
 
-/** By page what was chosen on it, which stays while other steps are open. */
+/** For each page its desk, which stays while other steps are open. */
 const DESKS = new WeakMap<object, Desk>();
 
 function deskOf({ bring }: Pick<Actions, 'bring'>): Desk {
@@ -65,7 +67,7 @@ const CURVE_FORMATS: Readonly<Record<Choices['curveFormat'], string>> = {
 
 const SIZE_CHOICES: readonly Choice<string>[] = SIZES.map((size) => ({ value: String(size), text: `${size} × ${size}` }));
 
-/** So many columns can be told one by one. */
+/** The most columns whose roles can be chosen one by one. */
 const MOST_OWN_COLUMNS = 100;
 
 interface PartOf {
@@ -73,7 +75,7 @@ interface PartOf {
   readonly choices: Choices;
 }
 
-/** What each column holds. */
+/** The choice of the role of each column. */
 function OwnColumns({ desk, choices, columns }: PartOf & { readonly columns: readonly string[] }): VNode {
   return (
     <div class="bring-columns">
@@ -132,7 +134,7 @@ function ValueChoices({ desk, choices, columns }: PartOf & { readonly columns: r
   );
 }
 
-/** What can be chosen of files of a kind. */
+/** The choices for files of a kind. */
 function KindChoices({ desk, choices, given }: PartOf & { readonly given: Given }): VNode | null {
   switch (given.kind) {
     case 'values':
@@ -166,7 +168,7 @@ function KindChoices({ desk, choices, given }: PartOf & { readonly given: Given 
   }
 }
 
-/** Where files are chosen, or dropped. */
+/** The place where files are chosen or dropped. */
 function Chooser({ desk, state }: { readonly desk: Desk; readonly state: DeskState }): VNode {
   const input = useRef<HTMLInputElement>(null);
   const take = (files: FileList | null | undefined): void => {
@@ -174,7 +176,7 @@ function Chooser({ desk, state }: { readonly desk: Desk; readonly state: DeskSta
       desk.take([...files]);
     }
   };
-  // What is prevented here is left alone by the page, which would take the files for meshes.
+  // The page ignores events that are prevented here; otherwise it would take the files for meshes.
   return (
     <div
       class="bring-drop"
@@ -212,7 +214,7 @@ function Chooser({ desk, state }: { readonly desk: Desk; readonly state: DeskSta
   );
 }
 
-/** The files with what is chosen of them, and the button. */
+/** The files with their choices, and the button that brings them across. */
 function Files({ desk, state, given }: { readonly desk: Desk; readonly state: DeskState; readonly given: Given }): VNode {
   const { choices, work } = state;
   const names = given.files.map(({ name }) => name);
@@ -245,7 +247,7 @@ function Files({ desk, state, given }: { readonly desk: Desk; readonly state: De
   );
 }
 
-/** What is done now, what came, and why nothing did. */
+/** What is being done, the last result, and why there is none. */
 function Outcome({ desk, state: { work, error, made } }: { readonly desk: Desk; readonly state: DeskState }): VNode {
   return (
     <>
@@ -253,7 +255,7 @@ function Outcome({ desk, state: { work, error, made } }: { readonly desk: Desk; 
         <div class="watched">
           <p role="status">{work.kind === 'looking' ? 'Looking at the files…' : 'Bringing it across…'}</p>
           <div class="watched-row">
-            <progress value={work.share} aria-label="Share that is done" />
+            <progress value={work.share} aria-label="Progress" />
             <button
               type="button"
               onClick={() => {
@@ -289,7 +291,7 @@ function Outcome({ desk, state: { work, error, made } }: { readonly desk: Desk; 
   );
 }
 
-/** The section's content. */
+/** The content of the section. */
 export default function BringPanel({ state, actions }: PartProps): VNode {
   const desk = deskOf(actions);
   const [, redraw] = useReducer((count: number) => count + 1, 0);

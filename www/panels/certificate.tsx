@@ -1,4 +1,4 @@
-/** The certificate as a shield that opens its proof, and has it checked by a second program. */
+/** The certificate as a shield that opens its details, and a button that has the map checked by a second program. */
 import type { VNode } from 'preact';
 import { figure, integer } from '../numbers.ts';
 import type { CertificateReport } from '../report.ts';
@@ -32,7 +32,7 @@ function Proof({ certificate, early }: { readonly certificate: CertificateReport
 }
 
 interface SecondProofProps {
-  /** What the second program says of this map; `null` where it was not asked. */
+  /** The second program's verdict on this map; `null` where it was not asked. */
   readonly proof: MapProof | null;
   readonly actions: Actions;
 }

@@ -1,4 +1,4 @@
-/** How the map is made: choices that most people leave as they are. */
+/** The options of how the map is made, which most users leave as they are. */
 import type { VNode } from 'preact';
 import { BASES, BORDERS, CLASSES, CONES, METHODS, MOST_LANDMARKS_WITH_OWN_CONES } from '../options.ts';
 import type { RunOptions } from '../report.ts';
@@ -14,7 +14,7 @@ const OWN_CONES: readonly Choice<string>[] = [
   { value: '40', text: 'Up to 40' },
 ];
 
-/** The choices. */
+/** The options. */
 export function Choices({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   const { options } = state;
   const running = state.job.kind === 'running';

@@ -1,4 +1,4 @@
-/** The map on the page beside another one: the section of the step Method, and what the views say of it. */
+/** The comparison of the map on the page with another one: the section of the step Method, and the captions of the views. */
 import type { VNode } from 'preact';
 import { lateModule } from '../late-module.ts';
 import { OTHER_NAMES } from '../method/compared-words.ts';
@@ -10,7 +10,7 @@ import { Late } from './late.tsx';
 
 const loadCompare = lateModule(() => import('../method/compare.tsx'));
 
-/** What the map on the page can be compared with, where there is one. */
+/** The choice of the map to compare with; `null` where there is no map on the page. */
 export function CompareView({ state, actions, shell }: PartProps): VNode | null {
   const result = shownResult(state);
   if (result === null) {
@@ -20,7 +20,7 @@ export function CompareView({ state, actions, shell }: PartProps): VNode | null 
     result,
     comparison: state.comparison,
     choose: (other: Parameters<typeof actions.compare>[0]): void => {
-      // Two maps are compared in two views.
+      // A comparison needs both views.
       if (other !== null && (shell.state.split === 0 || shell.state.split === 1)) {
         shell.set({ split: 0.5 });
       }
@@ -35,13 +35,13 @@ export function CompareView({ state, actions, shell }: PartProps): VNode | null 
   );
 }
 
-/** Whose map the views show, by their order; `null` while none is compared. */
+/** The caption of each view, which names its map; `null` while no map is compared. */
 export function comparedCaptions(state: Pick<State, 'comparison'>): readonly [string, string] | null {
   const { comparison } = state;
   return comparison === null || otherMap(state) === null ? null : ['this map', OTHER_NAMES[comparison.which].caption];
 }
 
-/** Brings the target back, on its view. */
+/** The bar on the second view that ends the comparison and brings the target back. */
 export function CompareBar({ actions }: Pick<PartProps, 'actions'>): VNode {
   return (
     <div class="view-bar" role="group" aria-label="Comparison">

@@ -6,7 +6,7 @@ import { Icon } from './icons.tsx';
 
 interface IconButtonProps {
   readonly icon: IconName;
-  /** What it does, a verb first; also the tooltip. */
+  /** What the button does, beginning with a verb; it is also the tooltip. */
   readonly label: string;
   readonly onClick: () => void;
   readonly id?: string;
@@ -14,7 +14,7 @@ interface IconButtonProps {
   readonly disabled?: boolean;
 }
 
-/** A button with an icon alone. */
+/** A button that shows only an icon. */
 export function IconButton({ icon, label, onClick, id, pressed, disabled }: IconButtonProps): VNode {
   return (
     <button
@@ -38,7 +38,7 @@ export interface Choice<T extends string> {
   readonly disabled?: boolean;
 }
 
-/** A choice for each word of a union, with its text. */
+/** A choice for each word of a union, with the text of that word. */
 export function choicesOf<T extends string>(texts: Readonly<Record<T, string>>): readonly Choice<T>[] {
   return wordsOf(texts).map((value) => ({ value, text: texts[value] }));
 }
@@ -52,7 +52,7 @@ interface SelectProps<T extends string> {
   readonly title?: string;
 }
 
-/** One of several choices, in a list that opens. */
+/** A list that opens, for one of several choices. */
 export function Select<T extends string>({ label, value, choices, disabled, onChoice, title }: SelectProps<T>): VNode {
   return (
     <label class="field" title={title}>
@@ -85,7 +85,7 @@ interface CheckProps {
   readonly onChange: (checked: boolean) => void;
 }
 
-/** Something that is on or off. */
+/** A checkbox. */
 export function Check({ name, text, checked, disabled, onChange }: CheckProps): VNode {
   return (
     <label class="check">
@@ -103,7 +103,7 @@ export function Check({ name, text, checked, disabled, onChange }: CheckProps): 
   );
 }
 
-/** Something that opens below its headline. */
+/** A section that opens below its headline. */
 export function Fold({ title, children }: { readonly title: string; readonly children: ComponentChildren }): VNode {
   return (
     <details>

@@ -1,4 +1,4 @@
-/** What is wrong with a mesh: the legend of what the view paints, and a list whose entries turn the camera. */
+/** The defects of a mesh: the legend of what the view paints, and a list whose entries turn the camera. */
 import type { VNode } from 'preact';
 import type { Side } from '../landmarks.ts';
 import { integer } from '../numbers.ts';
@@ -13,7 +13,7 @@ const DASHES: Readonly<Record<NonNullable<DefectGroup['stroke']>, string>> = {
   'dash-dot': '6 3 2 3',
 };
 
-/** Where the strokes of a filling go, in a box of 24 by 16. */
+/** The paths of the strokes of a filling, in a box of 24 by 16. */
 const FILLS: Readonly<Record<NonNullable<DefectGroup['fill']>, string>> = {
   stripes: 'M2 2 16 16M9 2 22 15M16 2 22 8M2 9 9 16',
   grid: 'M2 2 16 16M9 2 22 15M16 2 22 8M2 9 9 16M22 2 8 16M15 2 2 15M8 2 2 8M22 9 15 16',
@@ -21,7 +21,7 @@ const FILLS: Readonly<Record<NonNullable<DefectGroup['fill']>, string>> = {
   bars: 'M2 4H22M2 8H22M2 12H22',
 };
 
-/** A sample of how the view draws a kind. */
+/** A sample of how the view draws a kind of defect. */
 function Sample({ group: { colour, stroke, fill, sign } }: { readonly group: DefectGroup }): VNode {
   return (
     <svg class="sample" viewBox="0 0 24 16" aria-hidden="true" fill="none" stroke={colour}>
@@ -38,7 +38,7 @@ function Sample({ group: { colour, stroke, fill, sign } }: { readonly group: Def
   );
 }
 
-/** How much of a kind is drawn and listed, where that is not all. */
+/** A sentence about how many defects of a kind are drawn and listed, where that is not all. */
 function Rest({ group: { count, drawn, labels } }: { readonly group: DefectGroup }): VNode | null {
   if (labels.length === count) {
     return null;
@@ -50,7 +50,7 @@ function Rest({ group: { count, drawn, labels } }: { readonly group: DefectGroup
   );
 }
 
-/** A kind with so many entries or fewer is open at first. */
+/** A kind with at most this many entries is open at first. */
 const FEW = 6;
 
 /** The kinds of defects of one mesh, each with its entries. */

@@ -4,11 +4,11 @@ import { useLayoutEffect, useRef } from 'preact/hooks';
 import { IconButton } from './controls.tsx';
 
 interface DialogProps {
-  /** Of the element; its title's ends in `-title`. */
+  /** The id of the element; the id of its title is this and `-title`. */
   readonly id: string;
   readonly kind: string;
   readonly title: string;
-  /** What the button that closes it is called. */
+  /** The label of the button that closes the dialog. */
   readonly closing: string;
   readonly isOpen: boolean;
   readonly onClose: () => void;
@@ -18,7 +18,7 @@ interface DialogProps {
 /** The dialog; a click beside it closes it. */
 export function Dialog({ id, kind, title, closing, isOpen, onClose, children }: DialogProps): VNode {
   const dialog = useRef<HTMLDialogElement>(null);
-  // Before the content's own effects, which may bring the keyboard to a place in it.
+  // This effect runs before the content's own effects, which may move the keyboard focus into the content.
   useLayoutEffect(() => {
     if (isOpen) {
       dialog.current?.showModal();

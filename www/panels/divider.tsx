@@ -1,18 +1,18 @@
-/** The line between both views: dragged, moved by keys, and by a double-click one view gets the whole width. */
+/** The line between both views: it is dragged or moved by keys, and a double-click gives one view the whole width. */
 import type { VNode } from 'preact';
 import { useRef, useState } from 'preact/hooks';
 import type { Shell } from './shell.ts';
 
-/** One arrow key's step, as a share of the stage. */
+/** The step of an arrow key, as a share of the stage's width. */
 const KEY_STEP = 0.05;
-/** Within this share of an edge a dragged divider goes all the way. */
+/** A divider that is dropped within this share of an edge moves to the edge. */
 const SNAP = 0.08;
 
 function snapped(share: number): number {
   return share < SNAP ? 0 : share > 1 - SNAP ? 1 : share;
 }
 
-/** After a double-click: the wider view alone, or both again. */
+/** The split after a double-click: the wider view alone, or both again. */
 function exchanged(split: number): number {
   return split === 0 || split === 1 ? 0.5 : split < 0.5 ? 0 : 1;
 }
@@ -36,7 +36,7 @@ function afterKey(key: string, split: number): number | null {
   }
 }
 
-/** The divider; it lies in the stage, whose share it sets. */
+/** The divider; it lies in the stage, whose split it sets. */
 export function Divider({ shell }: { readonly shell: Shell }): VNode {
   const { split } = shell.state;
   const [held, setHeld] = useState(false);

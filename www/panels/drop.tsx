@@ -7,7 +7,7 @@ import { SIDES } from '../landmarks.ts';
 import type { Actions } from './actions.ts';
 import { VIEW_IDS } from './names.ts';
 
-/** Which view lies under a point of the window. */
+/** The side of the view under a point of the window; `null` for none. */
 function sideAt(x: number, y: number): Side | null {
   for (const side of SIDES) {
     const box = byId(VIEW_IDS[side]).getBoundingClientRect();
@@ -18,11 +18,11 @@ function sideAt(x: number, y: number): Side | null {
   return null;
 }
 
-/** What is dragged over the page: `null` nothing, else the view under it. */
+/** What is dragged over the page: `null` for nothing, else the side of the view under it. */
 type Over = { readonly side: Side | null } | null;
 
 function listen(actions: Actions, show: (over: Over) => void): () => void {
-  // A part of the page that takes files for itself prevents what others do with them.
+  // A part of the page that takes files itself prevents the event's default.
   const over = (event: DragEvent): void => {
     if (event.defaultPrevented) {
       show(null);
@@ -66,7 +66,7 @@ function listen(actions: Actions, show: (over: Over) => void): () => void {
   };
 }
 
-/** A veil over the views that says where the files go, while some are dragged. */
+/** The veil over the views that says where dragged files will go. */
 export function DropVeil({ actions }: { readonly actions: Actions }): VNode | null {
   const [over, setOver] = useState<Over>(null);
   useEffect(() => listen(actions, setOver), [actions]);

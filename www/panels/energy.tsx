@@ -1,4 +1,4 @@
-/** The falling energy of a run as a small curve, a piece for each relaxation. */
+/** The falling energy of a run as a small curve, with a piece for each relaxation. */
 import type { VNode } from 'preact';
 import { memo } from './memo.ts';
 
@@ -8,7 +8,9 @@ const MARGIN = 2;
 
 type Corner = readonly [number, number];
 
-/** The pieces' corners, one piece right of the other: the first energy left, the least of all at the bottom. */
+/**
+ * The corners of the pieces, one piece to the right of the other: the first energy is on the left, the least of all energies at the bottom.
+ */
 function corners(pieces: readonly (readonly number[])[]): readonly (readonly Corner[])[] {
   const all = pieces.flat();
   const least = Math.min(...all);
@@ -24,12 +26,12 @@ function corners(pieces: readonly (readonly number[])[]): readonly (readonly Cor
 }
 
 function Piece({ piece }: { readonly piece: readonly Corner[] }): VNode {
-  // A piece of one point is drawn as a dot.
+  // A piece of one energy is drawn as a dot.
   const points = piece.length === 1 ? [...piece, ...piece] : piece;
   return <polyline points={points.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(' ')} />;
 }
 
-/** A faint upright line between two pieces, whose energies do not compare. */
+/** A faint vertical line between two pieces, whose energies cannot be compared. */
 function Border({ before, after }: { readonly before: Corner | undefined; readonly after: Corner | undefined }): VNode | null {
   if (before === undefined || after === undefined) {
     return null;
@@ -54,5 +56,5 @@ function Curve({ energies }: { readonly energies: readonly (readonly number[])[]
   );
 }
 
-/** The curve; hidden while it has less than two points. */
+/** The curve; it is hidden while it has fewer than two points. */
 export const EnergyCurve = memo(Curve);

@@ -1,4 +1,4 @@
-/** What went wrong, in one sentence over the views. */
+/** The banner over the views that says what went wrong. */
 import type { VNode } from 'preact';
 import { useState } from 'preact/hooks';
 import { copied } from '../dom.ts';
@@ -7,7 +7,7 @@ import type { State } from '../store/state.ts';
 import type { PartProps } from './actions.ts';
 import { IconButton } from './controls.tsx';
 
-/** Copies the report of a breakdown; where the browser forbids that, the report is there to be copied by hand. */
+/** Copies the report of a breakdown; where the browser forbids that, the report is shown to be copied by hand. */
 function ReportButton({ state }: { readonly state: State }): VNode | null {
   const [shown, setShown] = useState<{ readonly report: string; readonly isCopied: boolean } | null>(null);
   const breakdown = toldBreakdown(state);
@@ -35,7 +35,7 @@ function ReportButton({ state }: { readonly state: State }): VNode | null {
   );
 }
 
-/** The banner; it stays in the page, so that what comes into it is read out. */
+/** The banner. Its element always stays in the page, so that screen readers read out what appears in it. */
 export function ErrorBanner({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   return (
     <div id="error" role="alert" hidden={state.error === null}>

@@ -1,4 +1,4 @@
-/** What can be taken away: the files of the result, and the landmarks. */
+/** The files that can be saved: those of the result, and the landmarks. */
 import type { MadeFiles } from '../compute/messages.ts';
 import { download } from '../dom.ts';
 import { wholePairs } from '../store/order.ts';
@@ -6,7 +6,7 @@ import type { Result, State } from '../store/state.ts';
 import type { Actions } from './actions.ts';
 
 export interface Export {
-  /** The format, on the button. */
+  /** The format, which the button shows. */
   readonly format: string;
   readonly title: string;
   readonly about: string;
@@ -17,19 +17,19 @@ type Saving = Pick<Actions, 'saveMadeFile' | 'saveWrapped' | 'saveLandmarks'>;
 
 /** A file of a map. */
 interface MapExport extends Omit<Export, 'save'> {
-  /** Under which it is saved. */
+  /** The name under which it is saved. */
   readonly name: string;
   readonly type: string;
-  /** What the core calls it, which makes it of a map file. */
+  /** The core's name for it, by which the core makes it from a map file. */
   readonly made: string;
-  /** Which file it is of a map that has no map file; `null` where there is none then. */
+  /** The field of `MadeFiles` for a map that has no map file; `null` where such a map does not have this file. */
   readonly key: keyof MadeFiles | null;
 }
 
 const GLB = 'model/gltf-binary';
 const OBJ = 'model/obj';
 
-/** What the core calls the file that no map to a mirror image has: nothing turns into that. */
+/** The core's name of the file that a map to a mirror image does not have: a mesh cannot turn into its mirror image. */
 const MORPH = 'source-to-target.glb';
 
 /** The files of a map, the most wanted first. */
@@ -44,7 +44,7 @@ export const MAP_EXPORTS: readonly MapExport[] = [
   { format: 'Layout', title: 'Flat layout', about: 'Both meshes cut open on the flat base domain, as a drawing', name: 'layout.svg', type: 'image/svg+xml', made: 'layout.svg', key: null },
 ];
 
-/** A file of a map, made when it is asked for, or there already; `null` where the map gives no such file. */
+/** A file of a map, which is there already or is made when it is asked for; `null` where the map has no such file. */
 function exportOf({ output, opened }: Result, { key, made, name, type, ...shown }: MapExport, { saveMadeFile }: Saving): Export | null {
   if (made === MORPH && opened?.isMirrored === true) {
     return null;
@@ -68,7 +68,7 @@ function exportOf({ output, opened }: Result, { key, made, name, type, ...shown 
       };
 }
 
-/** The source laid onto the target; none where the map gives no files, or goes to the target's mirror image. */
+/** The source laid onto the target; empty where the map has no map file, or goes to the target's mirror image. */
 function wrapped({ output, opened }: Result, { saveWrapped }: Saving): readonly Export[] {
   if (output.map === null || opened?.isMirrored === true) {
     return [];
@@ -98,7 +98,7 @@ function reportAndMap({ output }: Result): readonly Export[] {
   return map === null ? [numbers] : [numbers, itself];
 }
 
-/** The files that there are now, the most wanted first. */
+/** The files that can be saved now, the most wanted first. */
 export function exportsOf(state: State, saving: Saving): readonly Export[] {
   const { result } = state;
   const files = result === null ? [] : [...MAP_EXPORTS.flatMap((file) => exportOf(result, file, saving) ?? []), ...wrapped(result, saving), ...reportAndMap(result)];

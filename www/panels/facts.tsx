@@ -1,4 +1,4 @@
-/** All numbers of a result, in the words of the method. */
+/** All numbers of a result, named in the words of the method. */
 import type { VNode } from 'preact';
 import { Fragment } from 'preact';
 import { stageName } from '../messages.ts';
@@ -11,7 +11,7 @@ interface Fact {
   readonly note?: string;
 }
 
-/** The search among the layouts in words. */
+/** A sentence about the search among the layouts. */
 function layoutSentence(layout: LayoutSearchReport): string {
   const judged = layout.judged === 1 ? 'one class tried' : `best of ${integer(layout.judged)} classes tried`;
   const words = [layout.judged === 0 ? 'drawn from the base domain' : judged];
@@ -25,12 +25,12 @@ function layoutSentence(layout: LayoutSearchReport): string {
   return words.join('; ');
 }
 
-/** How much of the skin has a partner in words. */
+/** A sentence about how much of each skin has a partner on the other's. */
 export function coverageSentence({ source, target }: CoverageReport): string {
   return `${percent(source)} of the source’s skin lies on skin, ${percent(target)} of the target’s is met by skin`;
 }
 
-/** How far a flow ended from its cone angles. */
+/** The largest curvature error with which a flow ended. */
 function curvatureError(flow: ConeMetricReport | null): string {
   return flow === null ? 'none' : `${figure(flow.max_curvature_error)} rad`;
 }
@@ -95,7 +95,7 @@ function Facts({ facts }: { readonly facts: readonly Fact[] }): VNode {
   );
 }
 
-/** The numbers. */
+/** The numbers of a report. */
 export function ReportFacts({ report }: { readonly report: Report }): VNode {
   return <Facts facts={[...qualityFacts(report), ...optionalFacts(report)]} />;
 }

@@ -1,4 +1,7 @@
-/** Landmark pairs that do not fit and limbs without one, each with its repair. They stop nothing: the user knows the shapes. */
+/**
+ * Landmark pairs that do not fit and limbs without a landmark, each with its repair. They prevent no run, since the user knows the shapes
+ * better.
+ */
 import type { VNode } from 'preact';
 import type { Finding } from '../report.ts';
 import type { PartProps } from './actions.ts';
@@ -11,7 +14,7 @@ const REPAIRS: Readonly<Record<Finding['repair'], string>> = {
   mark: 'Show with rings',
 };
 
-/** The findings; nothing where there are none. */
+/** The findings; the section is hidden while there are none. */
 export function Findings({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   const doubts = state.findings.some((finding) => finding.repair !== 'mark');
   return (

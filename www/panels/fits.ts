@@ -1,9 +1,9 @@
-/** How sure each landmark pair is. */
+/** Judges how well each landmark pair fits. */
 import { isSamePoint, isWhole, SIDES } from '../landmarks.ts';
 import type { Pair } from '../landmarks.ts';
 import type { State } from '../store/state.ts';
 
-/** `new` where no run has looked at the pair as it is. */
+/** How well a pair fits; `new` where no run has judged the pair as it is now. */
 export type Fit = 'new' | 'fits' | 'doubtful' | 'missing';
 
 /** Each pair's fit by its id. */

@@ -1,11 +1,11 @@
-/** The demos as pictures, each with what to see in it and its link. */
+/** The demos as pictures, each with a sentence about what to see in it and with its link. */
 import type { VNode } from 'preact';
 import { copied } from '../dom.ts';
 import type { Demo } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { IconButton } from './controls.tsx';
 
-/** What to see in a demo, by its id; `npm run thumbnails` draws a picture of each. */
+/** A sentence about what to see in each demo, by its id; `npm run thumbnails` draws the pictures. */
 const SIGHTS: Readonly<Record<string, string>> = {
   'horse-camel': 'See where the hump comes from, and how the horse’s neck takes the camel’s bend.',
   'wolf-cow': 'See paws become hooves, a bushy tail a thin one, and where the skin for the horns is found.',
@@ -21,12 +21,12 @@ const SIGHTS: Readonly<Record<string, string>> = {
   'sphere-tetrahedron': 'See how a ball spreads over corners, and where the stretch gathers.',
 };
 
-/** What to see in a demo. */
+/** A sentence about what to see in a demo. */
 export function sightOf({ id, sentence }: Demo): string {
   return SIGHTS[id] ?? `${sentence}.`;
 }
 
-/** Where the picture of a demo is; `null` where none is drawn. */
+/** The address of a demo's picture; `null` where it has none. */
 function pictureOf(id: string): string | null {
   return id in SIGHTS ? `demos/${id}.webp` : null;
 }
@@ -45,7 +45,7 @@ async function copy(url: string, { dispatch }: Pick<Actions, 'dispatch'>): Promi
 
 interface CardProps {
   readonly demo: Demo;
-  /** Whether it is on the page. */
+  /** Whether the demo is on the page. */
   readonly isPresent: boolean;
   readonly disabled: boolean;
   readonly actions: Actions;
@@ -80,7 +80,7 @@ function Card({ demo, isPresent, disabled, actions }: CardProps): VNode {
   );
 }
 
-/** The demos, one press each. */
+/** The gallery of demos; a click opens one. */
 export function Gallery({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   return (
     <ul class="gallery">

@@ -1,4 +1,4 @@
-/** The guide over the page. */
+/** The dialog that shows the guide over the page. */
 import type { VNode } from 'preact';
 import type { GuideProps } from '../guide/guide.tsx';
 import { lateModule } from '../late-module.ts';

@@ -1,4 +1,4 @@
-/** The first steps and the keys. */
+/** The dialog that explains the first steps and the keys. */
 import type { VNode } from 'preact';
 import { Fragment } from 'preact';
 import { Dialog } from './dialog.tsx';

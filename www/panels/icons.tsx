@@ -1,4 +1,4 @@
-/** The page's icons: lines of one width on a grid of 24. */
+/** The icons of the page: strokes of one width on a grid of 24. */
 import type { VNode } from 'preact';
 
 const PATHS = {
@@ -52,7 +52,7 @@ const PATHS = {
 
 export type IconName = keyof typeof PATHS;
 
-/** An icon; its button tells what it means. */
+/** An icon; the label of its button says what it means. */
 export function Icon({ name, turns }: { readonly name: IconName; readonly turns?: boolean }): VNode {
   return (
     <svg class={turns === true ? 'icon turn' : 'icon'} viewBox="0 0 24 24" aria-hidden="true">

@@ -42,7 +42,10 @@ function FileInput({ id, accept, onFiles }: ChooserProps): VNode {
   );
 }
 
-/** What each kind of chooser offers, as the core and the page read it: files dropped on the page are told by content alone. */
+/**
+ * The endings that each kind of file chooser offers, as the core and the page read them. Files that are dropped on the page are recognised
+ * by their content alone.
+ */
 function accepted(): { readonly meshes: string; readonly landmarks: string; readonly all: string } {
   const landmarks = landmarkEndings();
   const meshes = [meshEndings(), PART_ENDINGS].join(',');
@@ -51,7 +54,7 @@ function accepted(): { readonly meshes: string; readonly landmarks: string; read
 
 const NOTHING_YET: ReturnType<typeof accepted> = { meshes: '', landmarks: '', all: '' };
 
-/** All of them. What is accepted is known when the core is there. */
+/** All file choosers. What they accept is known once the page's module is loaded. */
 export function FileInputs({ state, actions }: { readonly state: State; readonly actions: Actions }): VNode {
   const { meshes, landmarks, all } = state.ready ? accepted() : NOTHING_YET;
   const open = (side: Side | null) => (files: File[]): void => {

@@ -1,4 +1,4 @@
-/** An empty view asks for a mesh; beneath, the demos. */
+/** The invitation in an empty view to drop a mesh, and the demos beneath it. */
 import type { VNode } from 'preact';
 import type { Side } from '../landmarks.ts';
 import type { PartProps } from './actions.ts';
@@ -11,7 +11,7 @@ const ASKS = [
   { title: 'Drop the target here', about: 'The mesh that the source is mapped onto.', chooser: 'target-file' },
 ] as const;
 
-/** The drop zone of one view; nothing where there is a mesh. */
+/** The drop zone of one view; `null` where there is a mesh. */
 export function Invitation({ state, side }: { readonly side: Side } & Pick<PartProps, 'state'>): VNode | null {
   const isRefused = state.refused?.meshes.some((mesh) => mesh.side === side) === true;
   if (state.meshes[side] !== null || isRefused || !state.ready || state.job.kind === 'busy') {
@@ -35,7 +35,7 @@ export function Invitation({ state, side }: { readonly side: Side } & Pick<PartP
   );
 }
 
-/** The demos, while a view is empty. */
+/** The line of demos, shown while a view is empty. */
 export function DemoLine({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode | null {
   if (!state.meshes.includes(null) || state.demos.length === 0 || state.job.kind === 'busy') {
     return null;

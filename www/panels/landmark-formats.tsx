@@ -1,4 +1,4 @@
-/** Landmark files of other programs: saved by a menu, and opened for one mesh alone. */
+/** The menu for landmark files of other programs: it saves them, and opens those for one mesh alone. */
 import type { VNode } from 'preact';
 import { formatList } from '../landmark-files.ts';
 import { wholePairs } from '../store/order.ts';
@@ -8,7 +8,7 @@ import type { PartProps } from './actions.ts';
 import { choose } from './inputs.tsx';
 import { Popover } from './popover.tsx';
 
-/** How a format is called in the menu: what it is, its ending, and how many files it takes. */
+/** The name of a format in the menu: its title, its ending, and `2 ×` where it needs a file for each mesh. */
 function formatName({ title, ending, holds }: LandmarkFormatInfo): string {
   return `${title} (${holds === 'one' ? '2 × ' : ''}.${ending})`;
 }
@@ -22,7 +22,7 @@ interface MenuProps extends Pick<PartProps, 'state' | 'actions'> {
   readonly close: () => void;
 }
 
-/** Whether landmarks of these meshes can be put into space. */
+/** Whether both meshes are on the page, which formats with positions in space need. */
 function areMeshesThere({ meshes }: State): boolean {
   return meshes[0] !== null && meshes[1] !== null;
 }

@@ -16,7 +16,7 @@ interface RowProps {
   readonly fit: Fit;
   readonly selected: boolean;
   readonly lit: boolean;
-  /** Whether Tab comes to this row; of all rows one. */
+  /** Whether the Tab key reaches this row; it reaches only one of all rows. */
   readonly reached: boolean;
   readonly actions: Actions;
 }
@@ -87,7 +87,7 @@ function Row({ pair, fit, selected, lit, reached, actions }: RowProps): VNode {
         <Swatch number={number} draggable />
       </td>
       <td>
-        {/* What is being typed stays when the row is drawn again; another name from elsewhere makes another field. */}
+        {/* The text that is being typed stays when the row is drawn again; a label that is changed elsewhere makes a new field. */}
         <input
           key={label}
           type="text"
@@ -113,5 +113,5 @@ function Row({ pair, fit, selected, lit, reached, actions }: RowProps): VNode {
   );
 }
 
-/** The row; with many of them only those are drawn again that change. */
+/** The row. Of many rows only those are drawn again that change. */
 export const LandmarkRow = memo(Row);

@@ -1,4 +1,4 @@
-/** The landmark pairs as a table, for mouse and keys. */
+/** The table of landmark pairs, for mouse and keys. */
 import type { VNode } from 'preact';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import type { State } from '../store/state.ts';
@@ -16,7 +16,7 @@ function idOf(row: HTMLTableRowElement): number {
   return Number(row.dataset['id']);
 }
 
-/** Selects the pair of a row, which takes the keys. */
+/** Selects the pair of a row, and gives the row the keyboard focus. */
 function select(row: Element | null | undefined, actions: Actions): void {
   if (row instanceof HTMLTableRowElement) {
     actions.dispatch({ kind: 'pair-selected', id: idOf(row) });
@@ -24,7 +24,7 @@ function select(row: Element | null | undefined, actions: Actions): void {
   }
 }
 
-/** Does what a key means for a row; whether it means something. */
+/** Does what a key means for a row; returns whether it means anything. */
 function pressed(event: KeyboardEvent, row: HTMLTableRowElement, state: State, actions: Actions): boolean {
   const id = idOf(row);
   const index = state.pairs.findIndex((pair) => pair.id === id);
@@ -70,7 +70,7 @@ function pressed(event: KeyboardEvent, row: HTMLTableRowElement, state: State, a
   }
 }
 
-/** Keys in a name: Enter and Escape go back to the row, Escape without the change. */
+/** The keys in a label's field: Enter and Escape go back to the row, Escape without the change. */
 function leaveName(event: KeyboardEvent, input: HTMLInputElement, state: State): void {
   const row = rowOf(input);
   if (event.key === 'Escape') {
@@ -82,7 +82,7 @@ function leaveName(event: KeyboardEvent, input: HTMLInputElement, state: State):
   }
 }
 
-/** Rows are dragged by their numbers; they take the place of the row that they are dropped on. */
+/** The handlers by which rows are dragged by their numbers; a row takes the place of the row that it is dropped on. */
 function useReordering(state: State, actions: Actions): Record<'onDragStart' | 'onDragOver' | 'onDragLeave' | 'onDrop', (event: DragEvent) => void> {
   const mark = (event: DragEvent, over: boolean): void => {
     rowOf(event.target)?.classList.toggle('over', over);

@@ -1,4 +1,4 @@
-/** The second step: pairs of places that correspond. */
+/** The second step, Landmarks: pairs of places that correspond. */
 import type { VNode } from 'preact';
 import { wholePairs } from '../store/order.ts';
 import type { PartProps } from './actions.ts';
@@ -50,7 +50,7 @@ function FileButtons({ state, actions }: Pick<PartProps, 'state' | 'actions'>): 
   );
 }
 
-/** The panel's content. */
+/** The content of the panel. */
 export function LandmarksPanel({ state, actions }: PartProps): VNode {
   return (
     <div class="content of-landmarks" id="landmarks">

@@ -1,4 +1,4 @@
-/** Parts of the page that are fetched when they are first wanted. */
+/** Parts of the page that are fetched when they are first needed. */
 import type { ComponentType, VNode } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 
@@ -7,18 +7,18 @@ type Content<P extends object> =
   | { readonly kind: 'failed' }
   | { readonly kind: 'there'; readonly Component: ComponentType<P> };
 
-/** By loader what it has brought: a part that is drawn again is there at once. */
+/** For each loader, the component that it has loaded: a part that is drawn a second time is there at once. */
 const BROUGHT = new WeakMap<object, unknown>();
 
 interface LateProps<P extends object> {
   readonly isWanted: boolean;
-  /** The part's module; a loader that is the same at each drawing. */
+  /** Loads the module of the part; the same function at each drawing. */
   readonly load: () => Promise<{ readonly default: ComponentType<P> }>;
-  /** What the part is given. */
+  /** The properties of the part. */
   readonly given: P;
 }
 
-/** The part, or why it is not there; nothing of it is drawn while it is not wanted. */
+/** The part, or a sentence about why it is missing; `null` while the part is not wanted. */
 export function Late<P extends object>({ isWanted, load, given }: LateProps<P>): VNode | null {
   const [content, setContent] = useState<Content<P>>(() => {
     const known = BROUGHT.get(load) as ComponentType<P> | undefined;

@@ -1,4 +1,4 @@
-/** Left and right: whether points come in pairs of mirror images, and by which planes. */
+/** The controls for left and right: whether points come in pairs of mirror images, and across which planes. */
 import type { VNode } from 'preact';
 import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
@@ -24,7 +24,7 @@ function choicesOf(state: State, side: Side): Choice<PlaneChoice>[] {
   ];
 }
 
-/** What is known of a mesh's plane, in a sentence. */
+/** A sentence about a mesh's plane. */
 function told(name: string, { choice, answer }: MeshPlane): string {
   if (answer === 'awaited') {
     return `Looking how well the ${name} is mirrored…`;
@@ -55,7 +55,7 @@ function Plane({ state, actions, side }: { readonly side: Side } & Props): VNode
   );
 }
 
-/** The switch, and the planes while it is on. */
+/** The switch, and the choice of the planes while it is on. */
 export function LeftAndRight({ state, actions }: Props): VNode {
   const { isOn } = state.leftRight;
   return (

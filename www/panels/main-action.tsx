@@ -1,4 +1,4 @@
-/** The one thing to do now, on top of every panel. */
+/** The main action at the top of every panel: what to do now. */
 import type { VNode } from 'preact';
 import { integer } from '../numbers.ts';
 import { expectedMemory, mayExceedMemory } from '../store/memory.ts';
@@ -11,14 +11,14 @@ import { choose } from './inputs.tsx';
 import { FindLandmarks } from './matching.tsx';
 import { meshName } from './names.ts';
 
-/** Meshes of which a map may end for want of memory. */
+/** The warning that a map of these meshes may need more memory than the page can have. */
 function tooLarge(state: State): string {
   const faces = state.meshes.reduce((sum, mesh) => sum + (mesh?.faceCount ?? 0), 0);
   const needed = (expectedMemory(state) / 2 ** 30).toFixed(1);
   return `A map of ${integer(faces)} triangles may take ${needed} GiB of memory, more than the 4 GiB that a page can have. The command line has no such limit; or take fewer triangles.`;
 }
 
-/** Why no map can be made, or what it would be made of. */
+/** Why no map can be made, or else what it would be made from. */
 function reason(state: State): string {
   const pairs = wholePairs(state).length;
   if (!state.ready) {
@@ -56,7 +56,7 @@ function FinishOrCancel({ state, actions }: { readonly state: State; readonly ac
   );
 }
 
-/** The button, and a line that says why it is as it is. */
+/** The button of the main action, and the line that explains its state. */
 export function MainAction({ state, actions }: PartProps): VNode {
   const missing = state.meshes.includes(null);
   const { step } = state.ui;

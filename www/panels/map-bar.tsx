@@ -1,11 +1,11 @@
-/** What a map shows on the source's view. */
+/** The bar on the source's view with what a map can show there. */
 import type { VNode } from 'preact';
 import { shownResult } from '../store/staleness.ts';
 import type { PartProps } from './actions.ts';
 import { Morph } from './morph.tsx';
 import { WipeButton } from './wipe.tsx';
 
-/** The bar; there is none without a map. */
+/** The bar; `null` without a map. */
 export function MapBar({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode | null {
   if (shownResult(state) === null) {
     return null;

@@ -1,4 +1,4 @@
-/** The third step: the map, how good it is, and what may be wrong. */
+/** The third step, Map: how good the map is, and what may be wrong with it. */
 import type { VNode } from 'preact';
 import { reopenedSentence, SENTENCES, staleSentence } from '../messages.ts';
 import { shownResult, staleness } from '../store/staleness.ts';
@@ -28,11 +28,11 @@ function Note({ sentence }: { readonly sentence: string }): VNode {
 
 interface ResultProps {
   readonly result: Result;
-  /** Why it is outdated; `null` where it is not. */
+  /** Why the map is outdated; `null` where it is not. */
   readonly stale: string | null;
-  /** Whether the views show it. */
+  /** Whether the views show the map. */
   readonly shown: boolean;
-  /** What a second program says of it; `null` where it was not asked. */
+  /** The verdict of a second program on the map; `null` where it was not asked. */
   readonly proof: MapProof | null;
   readonly actions: Actions;
 }
@@ -77,7 +77,7 @@ function AboutDemo({ demo }: { readonly demo: Demo }): VNode {
   );
 }
 
-/** The panel's content. */
+/** The content of the panel. */
 export function MapPanel({ state, actions, shell }: PartProps): VNode {
   const { result } = state;
   const changes = staleness(state);

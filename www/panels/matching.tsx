@@ -1,4 +1,4 @@
-/** Landmarks that the program finds: the search, how sure it is, and what else it found. */
+/** The search for landmarks by the program: how sure its answer is, and the other answers. */
 import type { VNode } from 'preact';
 import type { Side } from '../landmarks.ts';
 import { count } from '../messages.ts';
@@ -15,7 +15,7 @@ import { meshName } from './names.ts';
 
 type Props = Pick<PartProps, 'state' | 'actions'>;
 
-/** Alternatives that are listed at most. */
+/** The most alternatives that are listed. */
 const LISTED = 5;
 
 interface Told {
@@ -24,7 +24,7 @@ interface Told {
   readonly sentence: string;
 }
 
-/** How sure a search is, in the page's words. */
+/** A sentence about how sure a search is. */
 const VERDICTS: Readonly<Record<MatchReport['verdict']['kind'], Told>> = {
   sure: { icon: 'check', word: 'Sure.', sentence: 'No other answer comes near.' },
   doubtful: { icon: 'doubt', word: 'Doubtful.', sentence: 'It may be right. The question below settles it.' },
@@ -36,7 +36,7 @@ const VERDICTS: Readonly<Record<MatchReport['verdict']['kind'], Told>> = {
 };
 const SETTLED: Told = { icon: 'check', word: 'Chosen by you.', sentence: 'The other answers can still be taken.' };
 
-/** The button; while a search goes on, its progress and the way out. */
+/** The button that begins a search; while a search goes on, its progress and a button that ends it. */
 export function FindLandmarks({ state, actions }: Props): VNode {
   const { matching } = state;
   if (matching?.kind === 'searching') {
@@ -68,13 +68,13 @@ export function FindLandmarks({ state, actions }: Props): VNode {
   );
 }
 
-/** A place by its pin where it has one, else by its vertex. */
+/** The name of a place: its pin where it has one, else its vertex. */
 function placeName({ pairs }: State, side: Side, vertex: number): string {
   const pair = pairs.find(({ points }) => points[side] === vertex);
   return pair === undefined ? `vertex ${vertex}` : `pin ${pair.number}`;
 }
 
-/** The question that settles a doubt: the same place of the source, here or there on the target. */
+/** The question that settles a doubt: which of two places on the target belongs to a place on the source. */
 function Asked({ report, question, state, actions }: { readonly report: MatchReport; readonly question: Question } & Props): VNode {
   const { source, targets } = question;
   const place = placeName(state, 0, source);
@@ -119,7 +119,7 @@ function Asked({ report, question, state, actions }: { readonly report: MatchRep
   );
 }
 
-/** Other pairs that were found, the best first. */
+/** The other answers of the search, the best first. */
 function Alternatives({ found, state, actions }: { readonly found: Found } & Props): VNode | null {
   const answers = listed(found.report)
     .slice(0, LISTED + 1)
@@ -159,7 +159,7 @@ function toldOf(state: State, { report, isSettled }: Found): Told {
   return isSettled && takenCandidate(state) !== null ? SETTLED : VERDICTS[report.verdict.kind];
 }
 
-/** What was found, and how sure it is; nothing before a search. */
+/** The answer of the search, and how sure it is; `null` before a search. */
 export function Matched({ state, actions }: Props): VNode | null {
   const { matching } = state;
   if (matching?.kind !== 'found') {
@@ -193,7 +193,7 @@ export function Matched({ state, actions }: Props): VNode | null {
   );
 }
 
-/** That a map is made of landmarks that may be wrong. */
+/** The note that the map is made from landmarks that may be wrong. */
 export function DoubtfulLandmarks({ state, actions }: Props): VNode | null {
   return isDoubtful(state) ? (
     <div class="note">

@@ -1,4 +1,4 @@
-/** Components that are drawn again only when something that they are given has changed. */
+/** Components that are drawn again only when one of their properties has changed. */
 import type { ComponentChildren, FunctionComponent } from 'preact';
 import { Component, h } from 'preact';
 
@@ -7,7 +7,7 @@ function differ(a: object, b: object): boolean {
   return before.length !== after.size || before.some(([key, value]) => after.get(key) !== value);
 }
 
-/** The component, kept as it is while its properties are the same objects. */
+/** A component that is not drawn again while its properties are the same objects. */
 export function memo<P extends object>(component: FunctionComponent<P>): new () => Component<P> {
   return class extends Component<P> {
     override shouldComponentUpdate(next: Readonly<P>): boolean {

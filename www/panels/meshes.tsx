@@ -1,4 +1,4 @@
-/** The first step: the two meshes, or a demo. */
+/** The first step, Meshes: two files, or a demo. */
 import type { VNode } from 'preact';
 import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
@@ -16,7 +16,7 @@ const BLOCKS = [
   { title: 'Target', chooser: 'target-file', about: 'is what the source is mapped onto' },
 ] as const;
 
-/** A mesh that was refused, with what is wrong with it. */
+/** A refused mesh, and what is wrong with it. */
 function RefusedBlock({ mesh, actions }: { readonly mesh: RefusedMesh } & Pick<PartProps, 'actions'>): VNode {
   const { side, file, examined } = mesh;
   return (
@@ -28,7 +28,7 @@ function RefusedBlock({ mesh, actions }: { readonly mesh: RefusedMesh } & Pick<P
   );
 }
 
-/** What was repaired of a mesh that is there, and, when asked, where. */
+/** The repairs that were made to a mesh and, on demand, where they are. */
 function Repairs({ state, actions, side }: { readonly side: Side } & Pick<PartProps, 'state' | 'actions'>): VNode {
   const examined = state.examined[side];
   const { job } = state;
@@ -88,7 +88,7 @@ function MeshBlock({ state, actions, side }: { readonly side: Side } & Pick<Part
   );
 }
 
-/** The panel's content. */
+/** The content of the panel. */
 export function MeshesPanel({ state, actions }: PartProps): VNode {
   const running = state.job.kind === 'running';
   return (

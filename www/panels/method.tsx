@@ -1,4 +1,4 @@
-/** The fifth step: how a map is made, and what of it can be seen on the meshes. */
+/** The fifth step, Method: how a map is made, and which parts of this can be seen on the meshes. */
 import type { VNode } from 'preact';
 import { integer } from '../numbers.ts';
 import type { Report } from '../report.ts';
@@ -13,7 +13,7 @@ import { WatchView } from './watch-view.tsx';
 interface Stage {
   readonly name: string;
   readonly about: string;
-  /** What the last run has to say of it. */
+  /** What the last run reports about the stage; `null` where it says nothing. */
   readonly fact: (report: Report) => string | null;
 }
 
@@ -46,7 +46,7 @@ const STAGES: readonly Stage[] = [
   },
 ];
 
-/** The panel's content. */
+/** The content of the panel. */
 export default function MethodPanel(props: PartProps): VNode {
   const { state, actions, shell } = props;
   const { result } = state;

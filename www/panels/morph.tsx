@@ -1,11 +1,11 @@
-/** The source on its way to the target's shape: a slider, and a button that plays it there and back. */
+/** The slider that moves the source to the target's shape, and a button that plays this there and back. */
 import type { VNode } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { PartProps } from './actions.ts';
 import { IconButton } from './controls.tsx';
 import { play } from './playback.ts';
 
-/** Steps of the slider over the whole way. */
+/** The number of the slider's steps over the whole way. */
 const STEPS = 100;
 
 function inWords(share: number): string {
@@ -15,7 +15,7 @@ function inWords(share: number): string {
   return `${Math.round(STEPS * share)} % of the way to the target’s shape`;
 }
 
-/** A share that plays, `null` while none does, and what begins and ends it. */
+/** The share of the way while it plays, `null` while it does not; and the function that starts and stops it. */
 function usePlayback({ state, actions }: Pick<PartProps, 'state' | 'actions'>): readonly [number | null, () => void] {
   const [share, setShare] = useState<number | null>(null);
   const end = useRef<(() => void) | null>(null);
@@ -27,7 +27,7 @@ function usePlayback({ state, actions }: Pick<PartProps, 'state' | 'actions'>): 
   useEffect(() => stop, []);
   const rest = (morph: number): void => {
     stop();
-    // The views may show another share than the one that was set last.
+    // The views may show another share than the one that the state has.
     actions.morph(morph);
     actions.dispatch({ kind: 'style', style: { morph } });
   };
@@ -53,7 +53,7 @@ function usePlayback({ state, actions }: Pick<PartProps, 'state' | 'actions'>): 
   return [share, toggle];
 }
 
-/** Both controls. */
+/** The slider and the button. */
 export function Morph({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   const [playing, toggle] = usePlayback({ state, actions });
   const share = playing ?? state.ui.style.morph;

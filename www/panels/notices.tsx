@@ -1,4 +1,7 @@
-/** What waits for the user's word: a link that was opened, meshes that a repair would help, and a newer build of the page. */
+/**
+ * The notices that wait for the user's decision: about a link that was opened, meshes that a repair would help, and a newer build of the
+ * page.
+ */
 import type { VNode } from 'preact';
 import { missingOf } from '../map-files.ts';
 import { filesNeeded, loadQuestion, loadingSentence, mapWaits, repairCommand, SENTENCES } from '../messages.ts';
@@ -13,7 +16,7 @@ interface ReceivingProps {
   readonly actions: Actions;
 }
 
-/** What the link asks, says or waits for; nothing where there is none. */
+/** The notice about a link: its question, its error, or the files that it waits for; `null` where there is no link. */
 function LinkNotice({ receiving, actions }: ReceivingProps): VNode | null {
   switch (receiving.kind) {
     case 'nothing':
@@ -56,7 +59,7 @@ function LinkNotice({ receiving, actions }: ReceivingProps): VNode | null {
   }
 }
 
-/** What a map file waits for. */
+/** The notice about a map file that waits for its meshes. */
 function MapNotice({ state, map, actions }: { readonly state: State; readonly map: AwaitedMap; readonly actions: Actions }): VNode {
   const missing = missingOf(map, state.meshes).map((side) => ({ side, name: map.meshes[side].name }));
   return (
@@ -74,7 +77,7 @@ function MapNotice({ state, map, actions }: { readonly state: State; readonly ma
   );
 }
 
-/** A mesh that was refused, and the repair that would help, where one would. */
+/** The notice about a refused mesh, with the repair that would help, where there is one. */
 function RefusedNotice({ mesh, state, actions }: { readonly mesh: RefusedMesh } & Pick<PartProps, 'state' | 'actions'>): VNode {
   const { kind } = state.job;
   return (
@@ -104,7 +107,7 @@ function RefusedNotice({ mesh, state, actions }: { readonly mesh: RefusedMesh } 
   );
 }
 
-/** The notices over the views; their box stays, so that what comes into it is read out. */
+/** The notices over the views. Their element always stays in the page, so that screen readers read out what appears in it. */
 export function Notices({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   return (
     <div class="notices" role="status">

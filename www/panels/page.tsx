@@ -1,4 +1,4 @@
-/** The whole page; it is drawn anew after every change, and only what is other is touched. */
+/** The whole page. It is rendered anew after every change, and only what differs is changed in the document. */
 import type { VNode } from 'preact';
 import { render } from 'preact';
 import { byId, isTyped } from '../dom.ts';
@@ -35,7 +35,7 @@ function Page(props: PartProps): VNode {
   );
 }
 
-/** Keys of the whole page that open steps and the help; what is typed into a field is the field's. */
+/** Handles the keys that open steps and the help; keys that are typed into a field belong to the field. */
 function listenForKeys(state: () => State, actions: Actions, shell: Shell): void {
   window.addEventListener('keydown', (event) => {
     if (isTyped(event.target) || event.target instanceof HTMLSelectElement || event.ctrlKey || event.metaKey || event.altKey) {
@@ -50,25 +50,25 @@ function listenForKeys(state: () => State, actions: Actions, shell: Shell): void
   });
 }
 
-/** Where the panel is a sheet over the views, as www/styles/phone.css has it. */
+/** The screens on which the panel is a sheet over the views; the same query as in www/styles/phone.css. */
 const PHONE = '(max-width: 600px), (max-width: 860px) and (orientation: portrait)';
 
-/** Shows the page light or dark: the style sheets read it from the root element. */
+/** Sets the theme on the root element, where the style sheets read it. */
 function applyTheme(theme: Theme): void {
   document.documentElement.dataset['theme'] = theme;
 }
 
-/** What the page is told. */
+/** The functions by which the page hears of changes. */
 export interface Mounted {
-  /** A change of the state. */
+  /** Called when the state has changed. */
   readonly sync: (state: State, previous: State) => void;
-  /** What the map says of the place under the mouse. */
+  /** Called with the map at the place under the mouse; `null` when the mouse has left. */
   readonly probed: (probe: Probe | null) => void;
   /** Opens the guide at a section; empty for its beginning. */
   readonly openGuide: (section: string) => void;
 }
 
-/** Shows the page for the first time; from then on `sync` keeps it in step. */
+/** Shows the page for the first time; afterwards `sync` keeps it up to date. */
 export function mountPage(initial: State, actions: Actions): Mounted {
   const root = byId('app');
   const shell = new Shell();
@@ -82,7 +82,7 @@ export function mountPage(initial: State, actions: Actions): Mounted {
   applyTheme(shell.theme);
   draw();
   if (window.matchMedia(PHONE).matches) {
-    // The views first; the main action is there all the same.
+    // A small screen shows the views first; the main action is visible even so.
     queueMicrotask(() => {
       actions.dispatch({ kind: 'ui', ui: { panel: 'folded' } });
     });
@@ -109,7 +109,7 @@ export function mountPage(initial: State, actions: Actions): Mounted {
       document.title = next.meshes.every((file) => file === null) ? 'Conemap' : `${documentName(next)} – Conemap`;
       const step = stepAfter(next, previous);
       if (step !== null && step !== next.ui.step) {
-        // The next change, not one within this.
+        // The step is changed by an event of its own, after the present one.
         queueMicrotask(() => {
           actions.dispatch({ kind: 'ui', ui: { step } });
         });

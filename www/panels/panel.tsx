@@ -14,7 +14,7 @@ import { UsePanel } from './use.tsx';
 
 const loadMethod = lateModule(() => import('./method.tsx'));
 
-/** Nobody needs it before there is a map. */
+/** The step Method, which is loaded late, since it is of no use before there is a map. */
 function MethodPanel(props: PartProps): VNode {
   return (
     <div class="content">
@@ -31,7 +31,7 @@ const CONTENTS: Readonly<Record<Step, ComponentType<PartProps>>> = {
   method: MethodPanel,
 };
 
-/** The panel. */
+/** The panel with the open step. */
 export function Panel(props: PartProps): VNode {
   const { state, actions } = props;
   const { step, panel } = state.ui;

@@ -1,4 +1,4 @@
-/** What the surfaces show: chosen on the canvas, with a legend where colours mean something. */
+/** The menu of what the surfaces show, and the legend of its colours. */
 import type { VNode } from 'preact';
 import type { Scale } from '../heat/scales.ts';
 import { scaleOf } from '../heat/scales.ts';
@@ -24,7 +24,7 @@ const PLAIN: Readonly<Record<PlainSurface, string>> = {
   colours: 'Colours',
 };
 
-/** What can lie on the flat metric. */
+/** The textures that can lie on the flat metric. */
 const TEXTURE_CHOICES: readonly Surface[] = choicesOf<Texture>({
   checkerboard: 'Checkerboard',
   circles: 'Circles',
@@ -43,7 +43,7 @@ const HEAT_MAPS: Readonly<Record<HeatMap, string>> = {
   truth: 'Distance to the truth',
 };
 
-/** What surfaces can show, in groups with their titles. */
+/** What the surfaces can show, in groups with their titles. */
 const GROUPS: readonly { readonly title: string | null; readonly surfaces: readonly Surface[] }[] = [
   {
     title: null,
@@ -59,17 +59,17 @@ const GROUPS: readonly { readonly title: string | null; readonly surfaces: reado
   },
 ];
 
-/** Whether it is known where the texture is cut that a map carries: only a map that is one-to-one has the target's cut on the source. */
+/** Whether it is known where the carried texture is cut: only a map that is one-to-one carries the target's cut to the source. */
 function hasSeams(result: Result | null): boolean {
   return result !== null && result.output.distortion.length > 0;
 }
 
 interface SurfaceProps extends Pick<PartProps, 'state' | 'actions'> {
-  /** The name of the radio buttons: those of one name exclude each other. */
+  /** The name of the radio buttons: only one of those with the same name is checked. */
   readonly group: string;
 }
 
-/** What the surfaces show. */
+/** The choice of what the surfaces show. */
 export function SurfaceChoice({ state, actions, group }: SurfaceProps): VNode {
   const choose = (surface: Style['surface']): void => {
     actions.dispatch({ kind: 'style', style: { surface } });
@@ -104,7 +104,7 @@ export function SurfaceChoice({ state, actions, group }: SurfaceProps): VNode {
   );
 }
 
-/** What lies on the surfaces. */
+/** The choice of the lines that are drawn on the surfaces. */
 export function LineChoice({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   const set = (style: Partial<Style>): void => {
     actions.dispatch({ kind: 'style', style });
@@ -137,7 +137,7 @@ export function LineChoice({ state, actions }: Pick<PartProps, 'state' | 'action
   );
 }
 
-/** The button on the target's view, and what it opens. */
+/** The button on the target's view, and the menu that it opens. */
 export function PictureBar({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode | null {
   if (state.meshes.includes(null)) {
     return null;
@@ -159,7 +159,7 @@ export function PictureBar({ state, actions }: Pick<PartProps, 'state' | 'action
   );
 }
 
-/** The scale of the heat map that is shown; `null` where none is. */
+/** The scale of the heat map that is shown; `null` where none is shown. */
 function shownScale(state: State): Scale | null {
   const { surface } = shownStyle(state);
   if (!isHeatMap(surface) || !isThere(state, surface)) {
@@ -169,7 +169,7 @@ function shownScale(state: State): Scale | null {
   return isFlowHeat(surface) && flows === null ? null : scaleOf(surface, flows === null ? undefined : scaleEnd(flows));
 }
 
-/** How far the flows are that a heat map waits for, or why there are none; `null` where none waits. */
+/** The progress of the flows that a heat map waits for, or why there are none; `null` where no heat map waits. */
 function flowWords(state: State): string | null {
   const { surface } = shownStyle(state);
   const { flattening } = state;
@@ -187,7 +187,7 @@ function flowWords(state: State): string | null {
   }
 }
 
-/** What the colours mean. */
+/** The legend of the colours. */
 export function Legend({ state }: Pick<PartProps, 'state'>): VNode | null {
   const hasResult = shownResult(state) !== null;
   const { textureBoundary } = shownStyle(state);

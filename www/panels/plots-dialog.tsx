@@ -1,4 +1,4 @@
-/** The plots of the last map over the page. */
+/** The dialog that shows the plots of the last map over the page. */
 import type { VNode } from 'preact';
 import { useMemo } from 'preact/hooks';
 import { lateModule } from '../late-module.ts';
@@ -10,7 +10,7 @@ import { LateDialog } from './late-dialog.tsx';
 
 const loadPlots = lateModule(() => import('../plots/plots.tsx'));
 
-/** Opens the plots. */
+/** The button that opens the plots. */
 export function PlotsButton({ shell }: Pick<PartProps, 'shell'>): VNode {
   return (
     <button

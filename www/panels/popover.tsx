@@ -6,19 +6,19 @@ import { Icon } from './icons.tsx';
 
 interface PopoverProps {
   readonly icon: IconName;
-  /** What the button is called. */
+  /** The label of the button. */
   readonly label: string;
-  /** Words beside the icon; without them the label is the tooltip only. */
+  /** The text beside the icon; without it the label is shown only as the tooltip. */
   readonly text?: string;
-  /** Where the box opens, seen from the button. */
+  /** The direction in which the box opens from the button. */
   readonly place: 'down start' | 'down end' | 'up start' | 'up end';
   readonly id?: string;
   readonly disabled?: boolean;
-  /** What the box holds; `close` shuts it. */
+  /** The content of the box; it can call `close` to shut the box. */
   readonly children: (close: () => void) => ComponentChildren;
 }
 
-/** Moves the focus to the next or previous button of a box, around its ends. */
+/** Moves the focus to the next or previous button of a box; after the last comes the first. */
 function moveFocus(box: HTMLElement, step: 1 | -1): void {
   const buttons = [...box.querySelectorAll<HTMLElement>('button:not(:disabled)')];
   const present = buttons.findIndex((button) => button === document.activeElement);
@@ -27,7 +27,7 @@ function moveFocus(box: HTMLElement, step: 1 | -1): void {
   }
 }
 
-/** The button and, while it is open, the box. Escape, a press elsewhere and leaving by Tab shut it. */
+/** The button and, while it is open, the box. Escape, a press elsewhere and leaving the box by Tab shut it. */
 export function Popover({ icon, label, text, place, id, disabled, children }: PopoverProps): VNode {
   const [open, setOpen] = useState(false);
   const root = useRef<HTMLDivElement>(null);

@@ -1,14 +1,14 @@
-/** A run under way in words. */
+/** Sentences about a run that goes on. */
 import { figure } from '../numbers.ts';
 import type { Running } from '../store/job.ts';
 
-/** What a run does. */
+/** A sentence about what the run does now. */
 export function runningSentence({ progress, finish }: Running): string {
   const stage = progress === null ? 'Starting' : progress.sentence;
   return finish === 'asked' ? `Finishing with the best map so far: ${stage.toLowerCase()}…` : `${stage}…`;
 }
 
-/** The number that a run brings down. */
+/** The number that the present stage of a run lowers. */
 export function progressNumber({ progress, energies }: Running): string {
   if (progress === null) {
     return '';

@@ -1,10 +1,10 @@
-/** The place that the map proposes for a half pair: taken or dropped. */
+/** The note about the place that the map proposes for a half pair, with buttons to accept and to drop it. */
 import type { VNode } from 'preact';
 import { proposed } from '../store/proposal.ts';
 import type { PartProps } from './actions.ts';
 import { meshName } from './names.ts';
 
-/** The note; there is none while nothing is proposed. */
+/** The note; `null` while nothing is proposed. */
 export function ProposalNote({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode | null {
   const proposal = proposed(state);
   if (proposal === null) {

@@ -1,4 +1,4 @@
-/** The steps of the work at the left edge: which one is open, and how far each is. */
+/** The rail of the steps at the left edge, which shows the open step and the progress of each. */
 import type { VNode } from 'preact';
 import type { State } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
@@ -25,7 +25,7 @@ const MARK_WORDS: Readonly<Record<Mark, string>> = {
 
 const MARK_ICONS: Readonly<Partial<Record<Mark, IconName>>> = { done: 'check', outdated: 'again' };
 
-/** Opens a step; the open step's own button folds the panel away. */
+/** Opens a step; for the step that is open already, folds the panel away. */
 export function openStep(state: State, actions: Actions, step: Step): void {
   const folds = step === state.ui.step && state.ui.panel === 'open';
   actions.dispatch({ kind: 'ui', ui: { step, panel: folds ? 'folded' : 'open' } });

@@ -1,4 +1,4 @@
-/** What the Share button opens: the link to what is on the page, what its receiver will see, and the project file. */
+/** The box of the Share button: the link to what is on the page, what its receiver will see, and the project file. */
 import type { VNode } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { copied } from '../dom.ts';
@@ -12,12 +12,12 @@ interface LinkBoxProps {
   readonly shared: NonNullable<Shared>;
 }
 
-/** The link to copy by hand or by a button. */
+/** The link, to be copied by hand or by a button. */
 function LinkBox({ shared }: LinkBoxProps): VNode {
   const [onClipboard, setOnClipboard] = useState('');
   const field = useRef<HTMLInputElement>(null);
   const copy = (): void => {
-    // A browser that forbids it leaves the link selected.
+    // Where the browser forbids copying, the link stays selected for the user.
     field.current?.select();
     void copied(shared.url).then((isCopied) => {
       if (isCopied) {

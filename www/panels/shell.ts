@@ -1,29 +1,29 @@
-/** What this browser remembers of the page beside the state: how the views share the width, light or dark, the open dialog. */
+/** What the page holds beside its state: how the views share the width, the theme, the open dialog, and the place under the mouse. */
 import type { State } from '../store/state.ts';
 
 export type Theme = State['ui']['theme'];
 
-/** What the map says of the place under the mouse. */
+/** The map at the place under the mouse. */
 export interface Probe {
   /** The place on the source and on the target, in the files' coordinates. */
   readonly positions: readonly [readonly [number, number, number], readonly [number, number, number]];
   /** The distortion there, 1 for none; `null` where it is not known. */
   readonly distortion: number | null;
-  /** What the heat map that is shown has there: one value of the map, or one on each mesh; `null` where none is shown. */
+  /** The values of the shown heat map at the place: one of the map, or one on each mesh; `null` where no heat map is shown. */
   readonly heat: readonly number[] | null;
-  /** The base triangle in whose patch it lies; `null` where nobody looks at the base domain. */
+  /** The base triangle in whose patch the place lies; `null` while nobody looks at the base domain. */
   readonly patch: number | null;
 }
 
-/** The first steps and keys; the guide, from a section on (empty for its beginning); the plots of the last map. */
+/** The dialogs: the first steps and keys; the guide, from a section on (empty for its beginning); the plots of the last map. */
 export type Dialog = { readonly kind: 'help' } | { readonly kind: 'guide'; readonly section: string } | { readonly kind: 'plots' };
 
 export interface ShellState {
   /** The source view's share of the stage, 0 to 1. */
   readonly split: number;
-  /** What lies over the page; `null` for nothing. */
+  /** The dialog over the page; `null` for none. */
   readonly dialog: Dialog | null;
-  /** `null` while the mouse is elsewhere, or there is no map to ask. */
+  /** The place under the mouse; `null` while the mouse is elsewhere, and where there is no map. */
   readonly probe: Probe | null;
 }
 
@@ -34,7 +34,7 @@ interface Remembered {
 
 const KEY = 'conemap-page';
 
-/** Takes what is sound of something that was stored. */
+/** Reads what was stored, and leaves out fields that are not valid. */
 export function remembered(text: string | null): Remembered {
   let value: unknown = null;
   try {
@@ -65,11 +65,11 @@ function store(change: Remembered): void {
   try {
     localStorage.setItem(KEY, JSON.stringify({ ...stored(), ...change }));
   } catch {
-    // See stored().
+    // Storage may be forbidden, as in stored().
   }
 }
 
-/** Holds it and tells one listener of changes. */
+/** Holds this and calls one listener at each change. */
 export class Shell {
   #state: ShellState = { split: stored().split ?? 0.5, dialog: null, probe: null };
   #listener = (): void => undefined;

@@ -1,4 +1,4 @@
-/** How far the point of a soft pair may be moved. */
+/** The field for the radius within which a run may move the point of a soft pair. */
 import type { VNode } from 'preact';
 import { useState } from 'preact/hooks';
 import { MAX_RADIUS } from '../landmarks.ts';
@@ -6,12 +6,12 @@ import type { PartProps } from './actions.ts';
 
 interface RadiusProps {
   readonly label: string;
-  /** As a share of the target's size. */
+  /** The radius as a share of the target's size. */
   readonly radius: number;
   readonly chosen: (radius: number) => void;
 }
 
-/** The radius in percent. What is typed stays as it is, whatever is drawn anew meanwhile, until it is entered. */
+/** The radius in percent. The text that is being typed stays until it is entered, even when the field is drawn again. */
 function Radius({ label, radius, chosen }: RadiusProps): VNode {
   const [typed, setTyped] = useState<string | null>(null);
   return (
@@ -36,7 +36,7 @@ function Radius({ label, radius, chosen }: RadiusProps): VNode {
   );
 }
 
-/** The radius of the selected pair, where that is soft, in percent of the target's size. */
+/** The radius of the selected pair in percent of the target's size; `null` where the pair is not soft. */
 export function SoftRadius({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode | null {
   const pair = state.pairs.find(({ id }) => id === state.ui.selected);
   if (pair?.radius === undefined) {

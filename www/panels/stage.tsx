@@ -1,4 +1,4 @@
-/** Both views with all that lies on them. */
+/** The stage: both views with everything that lies on them. */
 import type { VNode } from 'preact';
 import { integer } from '../numbers.ts';
 import type { Side } from '../landmarks.ts';
@@ -19,7 +19,7 @@ import { Toasts } from './toasts.tsx';
 import { ViewBar } from './view-bar.tsx';
 import { WipeLine } from './wipe.tsx';
 
-/** What was changed of a mesh; the panel tells more of a repair. */
+/** A word about how a mesh was changed when it was read; the panel says more about repairs. */
 function changed(file: MeshFile): string {
   if (file.repairs !== '') {
     return ', repaired';
@@ -30,7 +30,7 @@ function changed(file: MeshFile): string {
 function Caption({ state, side }: { readonly state: State; readonly side: Side }): VNode {
   const compared = comparedCaptions(state);
   const shown: Side = compared === null ? side : 0;
-  // The name of the map that the view shows, in place of the size where it is not the finished one.
+  // Where the view does not show the finished map, the name of what it shows takes the place of the mesh's size.
   const mark = compared?.[side] ?? (side === 0 && shownPreview(state) !== null ? 'coarse map' : null);
   const file = state.meshes[shown];
   const refused = state.refused?.meshes.find((mesh) => mesh.side === side);
@@ -65,7 +65,7 @@ function Pane({ side, ...props }: { readonly side: Side } & PartProps): VNode {
   const isCompared = comparedCaptions(props.state) !== null;
   return (
     <div class={share === 0 ? 'pane shut' : 'pane'}>
-      {/* The renderer lays its numbers and rings into this element, before the caption. */}
+      {/* The viewer puts its numbers and rings into this element, before the caption. */}
       <div id={VIEW_IDS[side]} class="view">
         <Caption state={props.state} side={side} />
       </div>

@@ -1,4 +1,4 @@
-/** The line below: what to do next, how far the run is, and how to end it. */
+/** The line at the bottom: what to do next, the progress of a run, and the buttons that end it. */
 import type { VNode } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { byId } from '../dom.ts';
@@ -35,7 +35,7 @@ function stretchWords(distortion: number): string {
   return `Here stretched up to ${largestStretch(distortion).toFixed(2)} times`;
 }
 
-/** What heat maps say of a place, by its value, or by those of its two ends. */
+/** A sentence of each heat map about a place, from its value there, or from those on both meshes. */
 const PLACE: Readonly<Record<HeatMap, (value: number, onTarget: number) => string>> = {
   distortion: (value) => `${stretchWords(value)}: distortion ${figure(value)} (1: none)`,
   angles: (value) => `Angles here are distorted by ${figure(value)} (1: none)`,
@@ -46,7 +46,7 @@ const PLACE: Readonly<Record<HeatMap, (value: number, onTarget: number) => strin
   'flat-curvature': (onSource, onTarget) => `Curvature here after the flow, in units of a sphere’s: ${figure(onSource)} on the source, ${figure(onTarget)} on the target`,
 };
 
-/** What the heat map that is shown says of the place under the mouse; where none is, how much the map stretches it. */
+/** A sentence about the place under the mouse: the value of the shown heat map, or else how much the map stretches the place. */
 function placeSentence(surface: Style['surface'], { distortion, heat }: Probe): string | null {
   if (heat !== null && isHeatMap(surface)) {
     const [value = 0, onTarget = 0] = heat;
@@ -55,7 +55,7 @@ function placeSentence(surface: Style['surface'], { distortion, heat }: Probe): 
   return distortion === null ? null : stretchWords(distortion);
 }
 
-/** What the line says when nothing runs; empty where the hint says it all. */
+/** What the line says while nothing runs; empty where the hint says everything. */
 function restSentence(state: State, probe: Probe | null): string {
   const here = probe === null || state.job.kind === 'busy' ? null : placeSentence(shownStyle(state).surface, probe);
   if (here !== null) {
@@ -74,7 +74,7 @@ function restSentence(state: State, probe: Probe | null): string {
   }
 }
 
-/** Keeps the keyboard's place when the button that it was on goes away. */
+/** Keeps the keyboard focus in the line when the button that had it is removed. */
 function useKeptFocus(running: boolean, finishable: boolean): { readonly current: HTMLButtonElement | null } {
   const finish = useRef<HTMLButtonElement>(null);
   const before = useRef(running);
@@ -111,10 +111,10 @@ function RunButtons({ job, actions }: { readonly job: Running | null } & Pick<Pa
   );
 }
 
-/** From this share and time in ms on the time that is left can be guessed. */
+/** The share and the time in ms from which on the time that is left can be estimated. */
 const GUESSED = { share: 0.15, elapsed: 1000 };
 
-/** A guess in words; empty while there is none. */
+/** A sentence about the time that is left; empty before it can be estimated. */
 function timeLeft(share: number, elapsed: number): string {
   if (share < GUESSED.share || elapsed < GUESSED.elapsed) {
     return '';
@@ -134,7 +134,7 @@ function Progress({ job }: { readonly job: Running }): VNode {
   );
 }
 
-/** Ends what the page is busy with; it comes only where that takes a while. */
+/** The button that ends the task that the page is busy with; it is shown only where the task takes a while. */
 function LeaveButton({ leave }: { readonly leave: () => void }): VNode {
   return (
     <button
@@ -142,7 +142,7 @@ function LeaveButton({ leave }: { readonly leave: () => void }): VNode {
       id="leave-task"
       onClick={() => {
         leave();
-        // The button has gone, and the keyboard's place with it.
+        // The button is removed and loses the keyboard focus, which therefore goes to another one.
         document.getElementById('run')?.focus();
       }}
     >

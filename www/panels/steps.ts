@@ -1,4 +1,4 @@
-/** The steps of the work: how far each is, and which one opens by itself. */
+/** The progress of each step of the work, and the step that opens by itself. */
 import { wholePairs } from '../store/order.ts';
 import { canRun, MIN_PAIRS } from '../store/readiness.ts';
 import { isCurrent } from '../store/staleness.ts';
@@ -17,7 +17,7 @@ function hasPairs(state: State): boolean {
   return wholePairs(state).length >= MIN_PAIRS;
 }
 
-/** How far a step is. */
+/** The mark that shows the progress of a step. */
 export function markOf(state: State, step: Step): Mark {
   const result = state.result === null ? null : isCurrent(state) ? 'done' : 'outdated';
   switch (step) {
@@ -36,7 +36,7 @@ export function markOf(state: State, step: Step): Mark {
   }
 }
 
-/** The step that a change opens; `null` where the user stays. */
+/** The step that opens after a change; `null` where the open step stays. */
 export function stepAfter(state: State, previous: State): Step | null {
   if (state.job.kind === 'running' && previous.job.kind !== 'running') {
     return 'map';
@@ -45,20 +45,20 @@ export function stepAfter(state: State, previous: State): Step | null {
     return 'map';
   }
   if (state.refused !== null && state.refused !== previous.refused && state.refused.meshes.some((mesh) => previous.refused?.meshes.includes(mesh) !== true)) {
-    // What is wrong with it is listed there.
+    // The step Meshes lists what is wrong with the refused mesh.
     return 'meshes';
   }
   if (state.matching?.kind === 'found' && previous.matching?.kind === 'searching') {
-    // How sure the pairs are is told there.
+    // The step Landmarks says how sure the pairs are.
     return 'landmarks';
   }
   if (state.history.past.length <= previous.history.past.length) {
-    // Nothing new: a step was taken back.
+    // Nothing is new: a step was taken back.
     return null;
   }
   if (state.meshes !== previous.meshes && hasMeshes(state) && state.meshes[0] !== previous.meshes[1]) {
     return hasPairs(state) ? 'map' : 'landmarks';
   }
-  // A landmark file beside meshes that were there.
+  // A landmark file has come to meshes that were there already.
   return state.ui.step === 'meshes' && hasMeshes(state) && hasPairs(state) && !hasPairs(previous) ? 'map' : null;
 }

@@ -1,4 +1,4 @@
-/** Suggested landmarks: asked for by a button, taken one by one or all at once. */
+/** Suggested landmarks: a button asks for them, and they are taken one by one or all at once. */
 import type { VNode } from 'preact';
 import type { Side } from '../landmarks.ts';
 import { otherSide, SIDES } from '../landmarks.ts';
@@ -81,7 +81,7 @@ function Found({ state, actions, side }: { readonly side: Side } & Props): VNode
   );
 }
 
-/** The part of the landmarks panel about suggestions. */
+/** The section about suggestions in the panel of the landmarks. */
 export function Suggestions({ state, actions }: Props): VNode {
   return (
     <div class="suggestions">

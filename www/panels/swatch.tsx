@@ -2,7 +2,7 @@
 import type { VNode } from 'preact';
 import { landmarkColour } from '../wasm/page.js';
 
-/** From this luminance on dark figures are easier to read than light ones (equal contrast, WCAG 2). */
+/** The luminance from which on dark digits are easier to read than light ones (equal contrast, WCAG 2). */
 const BRIGHT = 0.179;
 
 interface SwatchProps {
@@ -10,7 +10,7 @@ interface SwatchProps {
   readonly draggable?: boolean;
 }
 
-/** The number; its colour is the pin's, which comes in linear RGB. */
+/** The number on the colour of its pin, which comes in linear RGB. */
 export function Swatch({ number, draggable }: SwatchProps): VNode {
   const [red = 0, green = 0, blue = 0] = landmarkColour(number - 1);
   const luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;

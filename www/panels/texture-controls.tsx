@@ -1,10 +1,10 @@
-/** How a texture lies on the flat metric: its scale, turn and shift, and a picture of the user's. */
+/** The controls for how a texture lies on the flat metric: its scale, turn and shift, and a picture of the user. */
 import type { VNode } from 'preact';
 import type { TexturePlace } from '../store/state.ts';
 import type { PartProps } from './actions.ts';
 import { choose } from './inputs.tsx';
 
-/** Cells of a texture, by steps of the slider. */
+/** The least number of cells of a texture, the number of the slider's steps, and the largest number of cells. */
 const FEWEST = 4;
 const CELL_STEPS = 60;
 const MOST = 324;
@@ -47,7 +47,7 @@ function Slider({ name, text, value, ends, step, words, onChange }: SliderProps)
   );
 }
 
-/** How the texture lies that is shown, and whose picture it is. */
+/** The controls for the texture that is shown. */
 export function TextureControls({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   const { texturePicture } = state;
   const { texture } = state.ui.style;

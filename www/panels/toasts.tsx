@@ -1,4 +1,4 @@
-/** Sentences that go by themselves, and the offer of earlier work. */
+/** Toasts: sentences that disappear by themselves, and the offer to continue earlier work. */
 import type { VNode } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import { offerSentence } from '../messages.ts';
@@ -7,11 +7,11 @@ import { shortName } from '../store/work.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { IconButton } from './controls.tsx';
 
-/** How long a toast stays, in ms: to read two lines and to come to its button. */
+/** How long a toast stays, in ms: long enough to read two lines and to reach its button. */
 const STAYS = 8000;
 
 function ToastBox({ toast, actions }: { readonly toast: Toast; readonly actions: Actions }): VNode {
-  // Under the mouse or with the keyboard's place it stays.
+  // A toast stays while the mouse is over it or the keyboard focus is in it.
   const [held, setHeld] = useState(false);
   useEffect(() => {
     if (held) {
@@ -69,7 +69,7 @@ function OfferBox({ offer, actions }: { readonly offer: Offer; readonly actions:
   );
 }
 
-/** The toasts over the views; the box stays, so that what comes into it is read out. */
+/** The toasts over the views. Their element always stays in the page, so that screen readers read out what appears in it. */
 export function Toasts({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode {
   return (
     <div class="toasts" role="status">

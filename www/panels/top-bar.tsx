@@ -1,4 +1,4 @@
-/** The band on top: what the page works on, undo, taking away, help and light. */
+/** The bar at the top: the name of what the page works on, undo and redo, files to save, help and the theme. */
 import type { VNode } from 'preact';
 import type { PartProps } from './actions.ts';
 import { IconButton } from './controls.tsx';
@@ -69,7 +69,7 @@ function ThemeMenu({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VN
   );
 }
 
-/** One step back or forth, with the step's name as its tooltip. */
+/** The button that goes one step back or forward, with the step's name as its tooltip. */
 function Move({ kind, state, actions }: { readonly kind: 'undo' | 'redo' } & Pick<PartProps, 'state' | 'actions'>): VNode {
   const step = (kind === 'undo' ? state.history.past : state.history.future).at(-1);
   const [word, keys] = kind === 'undo' ? ['Undo', 'Ctrl+Z'] : ['Redo', 'Ctrl+Shift+Z'];

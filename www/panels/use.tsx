@@ -1,4 +1,4 @@
-/** The fourth step: what the map is good for, and what can be taken away. */
+/** The fourth step, Use: what the map can be used for, and the files that can be saved. */
 import type { VNode } from 'preact';
 import { lateModule } from '../late-module.ts';
 import { shownResult } from '../store/staleness.ts';
@@ -9,7 +9,7 @@ import { SurfaceChoice } from './picture-bar.tsx';
 
 const loadBring = lateModule(() => import('./bring.tsx'));
 
-/** The panel's content. */
+/** The content of the panel. */
 export function UsePanel(props: PartProps): VNode {
   const { state, actions } = props;
   const files = exportsOf(state, actions);

@@ -1,15 +1,15 @@
-/** A finished map in a person's words. */
+/** Sentences about how good a finished map is, for readers who do not know the method. */
 import type { Report } from '../report.ts';
 
 export interface Verdict {
-  /** `open` where nothing proves that the map is one-to-one. */
+  /** How good the map is; `open` where nothing proves that it is one-to-one. */
   readonly level: 'good' | 'fair' | 'rough' | 'open';
   readonly sentence: string;
-  /** What the sentence leaves out; empty where nothing. */
+  /** Details that the sentence leaves out; empty where there are none. */
   readonly more: string;
 }
 
-/** Up to which factor 95 % of the surface is stretched in a very good, a good and a fair map. Chosen by hand. */
+/** The factors up to which 95 % of the surface may be stretched in a very good, a good and a fair map. They were chosen by hand. */
 const VERY_GOOD = 1.5;
 const GOOD = 2;
 const FAIR = 3.5;
@@ -23,7 +23,7 @@ export function largestStretch(density: number): number {
   return Math.sqrt(half + Math.sqrt(half * half - 1));
 }
 
-/** 1.52: rounded up, so that "less than" stays true. */
+/** A factor with two decimals, such as 1.52, rounded up so that "less than" stays true. */
 function factor(value: number): string {
   return (Math.ceil(value * 100) / 100).toFixed(2);
 }

@@ -1,4 +1,4 @@
-/** The camera's buttons on a view. */
+/** The buttons on a view for its camera. */
 import type { VNode } from 'preact';
 import { useState } from 'preact/hooks';
 import type { Side } from '../landmarks.ts';
@@ -37,7 +37,7 @@ const LINKS: Readonly<Record<State['ui']['link'], string>> = {
   free: 'Each by itself',
 };
 
-/** In degrees: six presses turn by a right angle. */
+/** The turn of one press, in degrees; six presses turn by a right angle. */
 const ROLL = 15;
 
 function Sides({ actions, side }: Props): VNode {
@@ -62,7 +62,7 @@ function Sides({ actions, side }: Props): VNode {
   );
 }
 
-/** The axes, with the one that the shape proposes; it is asked when the box opens. */
+/** The choice of the axis that points up, with the axis that the shape suggests. The shape is examined when the box opens. */
 function AxisChoice({ state, actions, side }: Props): VNode {
   const [proposed] = useState(() => actions.proposedUp(side));
   return (

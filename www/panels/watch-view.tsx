@@ -1,4 +1,4 @@
-/** Parts of the method that are watched on the meshes, one at a time. */
+/** The section with the parts of the method that can be watched on the meshes, one at a time. */
 import type { VNode } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import { lateModule } from '../late-module.ts';
@@ -38,7 +38,7 @@ function PartsOf({ state, actions, shell, isCarried }: PartProps & { readonly is
     setOpen(null);
   };
   const opens = (part: Part) => (): void => {
-    // The views show one thing at a time.
+    // The views show only one thing at a time.
     actions.compare(null);
     setOpen(part);
   };
@@ -77,7 +77,7 @@ function PartsOf({ state, actions, shell, isCarried }: PartProps & { readonly is
   );
 }
 
-/** What can be watched of the map on the page. */
+/** What can be watched for the map on the page; `null` where there is none. */
 export function WatchView({ state, actions, shell }: PartProps): VNode | null {
   const result = shownResult(state);
   return result === null ? null : <PartsOf key={result.output.report} state={state} actions={actions} shell={shell} isCarried={result.output.map !== null} />;

@@ -1,4 +1,7 @@
-/** A line to drag across the source's view: left of it the source is drawn as it is by itself, right of it with what the map carries onto it. */
+/**
+ * A line that is dragged across the source's view: to the left of it the source is drawn plain, to the right with what the map carries to
+ * it.
+ */
 import type { VNode } from 'preact';
 import { useRef, useState } from 'preact/hooks';
 import { shownResult } from '../store/staleness.ts';
@@ -9,11 +12,11 @@ import { Icon } from './icons.tsx';
 
 type Props = Pick<PartProps, 'state' | 'actions'>;
 
-/** One arrow key's step, as a share of the view. */
+/** The step of an arrow key, as a share of the view's width. */
 const KEY_STEP = 0.02;
-/** Steps over the whole view that a place is told in: finer than a pixel. */
+/** The number of steps to which a position in the view is rounded: finer than a pixel. */
 const STEPS = 10_000;
-/** Where the line is when it comes. */
+/** The position of the line when it is switched on. */
 const MIDDLE = 0.5;
 
 /** Whether the surfaces show anything that a map carries. */
@@ -21,7 +24,7 @@ export function canWipe(state: State): boolean {
   return shownResult(state) !== null && state.ui.style.surface !== 'shaded';
 }
 
-/** Where a key moves the line; `null` for other keys. */
+/** The position to which a key moves the line; `null` for other keys. */
 export function afterKey(key: string, wipe: number): number | null {
   switch (key) {
     case 'ArrowLeft':
@@ -39,7 +42,7 @@ export function afterKey(key: string, wipe: number): number | null {
   }
 }
 
-/** Brings the line and takes it away. */
+/** The button that shows and hides the line. */
 export function WipeButton({ state, actions }: Props): VNode {
   const isOn = state.ui.style.wipe !== null;
   return (

@@ -1,11 +1,11 @@
-/** The places where a map is worst, one after the other. */
+/** A button that goes through the places where a map is worst. */
 import type { VNode } from 'preact';
 import { useState } from 'preact/hooks';
 import type { Result } from '../store/state.ts';
 import type { Actions } from './actions.ts';
 import { largestStretch } from './verdict.ts';
 
-/** Turns both views to the worst places; the report has ten at most. */
+/** Turns both views to the worst places, one after the other; the report has at most ten. */
 export function WorstPlaces({ result, actions }: { readonly result: Result; readonly actions: Actions }): VNode | null {
   const [seen, setSeen] = useState({ result, count: 0 });
   const { worst } = result.report.distortion;

@@ -1,4 +1,4 @@
-/** Plots of a map's distortion: how the area is spread over its values, or how much of it stays below each. */
+/** Plots of a map's distortion: how the area is distributed over its values, or how much of the area stays below each value. */
 import type { Chart, Curve } from './chart.ts';
 import { evenMarks, logMarks } from './chart.ts';
 import type { Measure, Spectra, Spectrum } from './spectrum.ts';
@@ -6,9 +6,9 @@ import { CLASSES_PER_DECADE, quantile } from './spectrum.ts';
 
 export type Way = 'histogram' | 'cumulative';
 
-/** Bars of a histogram. */
+/** The number of bars of a histogram. */
 const BARS = 48;
-/** The share of the area that the axis reaches over; single places beyond it would press all else together. */
+/** The share of the area that lies within the axis; single places beyond it would compress everything else. */
 const SEEN = 0.995;
 
 const TITLES: Readonly<Record<Measure, string>> = {
@@ -17,13 +17,13 @@ const TITLES: Readonly<Record<Measure, string>> = {
   area: 'Factor of the area (1: unchanged)',
 };
 
-/** Fine classes of a bar, and of the first the number; all bars from there have as many. */
+/** The bars of a histogram: the index of the first bar's first fine class, and the number of fine classes in each bar. */
 interface Bars {
   readonly from: number;
   readonly width: number;
 }
 
-/** Bars that reach over nearly all of every spectrum, from 1, or as far below 1 as above it. */
+/** Bars that cover nearly all of every spectrum, from 1 on, or as far below 1 as above it. */
 function barsOf(spectra: readonly Spectrum[], measure: Measure): Bars {
   const { first } = spectra[0] ?? { first: 0 };
   const one = -first * CLASSES_PER_DECADE;
@@ -37,7 +37,7 @@ function barsOf(spectra: readonly Spectrum[], measure: Measure): Bars {
   return { from: one, width: Math.max(1, Math.ceil((reach(SEEN) * CLASSES_PER_DECADE) / BARS)) };
 }
 
-/** The share of the area in the fine classes from one number to below another. */
+/** The share of the area in the fine classes from one index up to, but without, another. */
 function shareBetween({ shares }: Spectrum, from: number, to: number): number {
   return shares.subarray(Math.max(0, from), Math.max(0, to)).reduce((sum, share) => sum + share, 0);
 }
@@ -53,7 +53,7 @@ function valuesOf(spectrum: Spectrum, bars: Bars, way: Way): readonly (number | 
       return 100 * shareBetween(spectrum, 0, edge);
     }
     const next = ends[k + 1];
-    // The last edge has the height of the last bar, which ends there.
+    // The last edge ends the last bar, and is drawn at that bar's height.
     return next === undefined
       ? 100 * shareBetween(spectrum, edge - bars.width, edge)
       : 100 * shareBetween(spectrum, edge, next);
@@ -65,7 +65,7 @@ interface Asked {
   readonly way: Way;
 }
 
-/** The plot of one measure, of the present map and the one before it. */
+/** The plot of one measure for the present map and the one before it. */
 export function distortionChart(now: Spectra, before: Spectra | null, { measure, way }: Asked): Chart {
   const spectra = [now[measure], ...(before === null ? [] : [before[measure]])];
   const bars = barsOf(spectra, measure);
@@ -94,7 +94,7 @@ export function distortionChart(now: Spectra, before: Spectra | null, { measure,
   };
 }
 
-/** The share of the area beyond the plot's last value, of the present map. */
+/** The share of the present map's area that lies beyond the plot's last value. */
 export function beyond(now: Spectra, chart: Chart, measure: Measure): number {
   const { first, shares } = now[measure];
   const edge = Math.round((Math.log10(chart.at.at(-1) ?? 1) - first) * CLASSES_PER_DECADE);

@@ -1,14 +1,14 @@
-/** A plot as files: SVG and CSV. The SVG stands alone, dark on white, as papers need it. */
+/** A plot as SVG and CSV files. The SVG is self-contained, dark on white, for use in papers. */
 import { ACCENT, DOUBT, INK, LINE, PAPER, QUIET } from '../colours.ts';
 import { escaped } from '../svg.ts';
 import type { Axis, Chart, Curve } from './chart.ts';
 import { markText, shareOf } from './chart.ts';
 
-/** In pixels. */
+/** The size of the drawing, in pixels. */
 export const SIZE = { width: 720, height: 440 };
 const BOX = { left: 76, right: 704, top: 48, bottom: 380 };
 const COLOURS: Readonly<Record<Curve['colour'], string>> = { first: ACCENT.light, second: DOUBT.light };
-/** How strongly the map before is drawn. */
+/** The opacity with which the map before is drawn. */
 export const FAINT = 0.45;
 
 function across(axis: Axis, value: number): number {
@@ -83,7 +83,7 @@ function legend({ curves }: Chart): string {
     .join('');
 }
 
-/** The plot as a drawing. */
+/** The plot as SVG. */
 export function chartSvg(chart: Chart): string {
   const { width, height } = SIZE;
   const curves = chart.curves.map((curve) => curveMarkup(chart, curve)).join('');

@@ -1,4 +1,4 @@
-/** A plot that answers to the mouse and the keyboard. */
+/** A plot that shows its values under the mouse and by the arrow keys. */
 import type { VNode } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import uPlot from 'uplot';
@@ -9,10 +9,10 @@ import { indexAt, markText, reading } from './chart.ts';
 import { FAINT } from './files.ts';
 
 const HEIGHT = 320;
-/** Curves with at most this many points show them. */
+/** The most points of a curve that are drawn as dots. */
 const DOTTED = 40;
 
-/** The colours of the page's style sheets, as a canvas takes them. */
+/** The colours of the page's style sheets, for use on a canvas. */
 interface Palette {
   readonly ink: string;
   readonly line: string;
@@ -33,7 +33,7 @@ function paletteOf(element: HTMLElement): Palette {
 
 function scaleOf({ scale, range: [low, high] }: Axis): uPlot.Scale {
   const plain: uPlot.Scale = { time: false, range: [low, high] };
-  // The library's number for logarithms; its enumeration exists among types only.
+  // The library's number for a logarithmic scale; its enumeration exists only among the types.
   return scale === 'log' ? Object.assign(plain, { distr: 3 }) : plain;
 }
 
@@ -46,7 +46,7 @@ function axisOf({ title, marks }: Axis, { ink, line }: Palette, size: number): u
     grid: { stroke: line, width: 1 },
     ticks: { stroke: line, width: 1 },
     splits: () => [...marks],
-    // All marks are wanted; by itself the library thins those of logarithms out.
+    // All marks are drawn; by default the library leaves some out on logarithmic axes.
     filter: (_, splits) => splits,
     values: (_, splits) => splits.map(markText),
   };
@@ -89,11 +89,11 @@ function draw(element: HTMLElement, chart: Chart, asked: (index: number | null) 
 
 interface LiveProps {
   readonly chart: Chart;
-  /** The page's theme; another one has other colours. */
+  /** The page's theme, on which the colours depend. */
   readonly theme: string;
 }
 
-/** The plot with the values under the mouse, or where the arrow keys have gone. */
+/** The plot with the values under the mouse, or at the place that the arrow keys have reached. */
 export function LivePlot({ chart, theme }: LiveProps): VNode {
   const root = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
@@ -122,7 +122,7 @@ export function LivePlot({ chart, theme }: LiveProps): VNode {
     const last = chart.at.length - (chart.shape === 'steps' ? 2 : 1);
     const place = chart.at[Math.min(last, Math.max(0, to))];
     if (drawn !== null && place !== undefined) {
-      // Half a pixel inside, so that it is this step and not the one before.
+      // Half a pixel inside, so that the cursor selects this step and not the one before.
       drawn.setCursor({ left: drawn.valToPos(place, 'x') + 0.5, top: 1 });
     }
   };

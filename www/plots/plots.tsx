@@ -1,4 +1,4 @@
-/** The plots of a map: how its flat metrics converged, and how it distorts; the map before it beside. */
+/** The plots of a map: how its flat metrics converged, and how it distorts, with the map before it for comparison. */
 import type { VNode } from 'preact';
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import { download } from '../dom.ts';
@@ -17,19 +17,19 @@ import type { Measure, Spectra } from './spectrum.ts';
 import { MEASURES, quantile, spectraOf } from './spectrum.ts';
 
 export interface PlotsProps {
-  /** The map that is plotted. */
+  /** The map that is plotted; `null` for none. */
   readonly map: EarlierMap | null;
-  /** The one before it; `null` for none. */
+  /** The map before it; `null` for none. */
   readonly before: EarlierMap | null;
   readonly theme: string;
 }
 
-/** Pixels of a PNG to each of the drawing's. */
+/** How many pixels of a PNG stand for one of the drawing. */
 const PNG_TIMES = 2;
 
 const MEASURED = new WeakMap<Uint32Array, Promise<Spectra>>();
 
-/** The spectra of a map, measured once. */
+/** The spectra of a map; they are computed only once for each map. */
 function spectraOnce(pieces: Pieces): Promise<Spectra> {
   const known = MEASURED.get(pieces.triangles);
   const spectra =
@@ -41,7 +41,7 @@ function spectraOnce(pieces: Pieces): Promise<Spectra> {
   return spectra;
 }
 
-/** The spectra of a map once they are there; `null` before, and for a map without pieces that cover it. */
+/** The spectra of a map once they are computed; `null` before that, and for a map whose pieces do not cover it. */
 function useSpectra(map: EarlierMap | null): Spectra | null {
   const [found, setFound] = useState<{ readonly pieces: Pieces; readonly spectra: Spectra } | null>(null);
   const pieces = map?.pieces.areWhole === true ? map.pieces : null;
@@ -203,7 +203,7 @@ function Distortion({ map, before, theme }: { readonly map: EarlierMap; readonly
   );
 }
 
-/** All of it. */
+/** All plots. */
 export default function Plots({ map, before, theme }: PlotsProps): VNode {
   if (map === null) {
     return <p class="quiet">There is no map yet.</p>;

@@ -1,6 +1,6 @@
-/** A drawing as pixels. */
+/** Converts an SVG into a PNG. */
 
-/** A PNG of an SVG with this many pixels to each of the drawing's; `null` where the browser makes none. */
+/** A PNG of an SVG, larger than the drawing by the factor `times`; `null` where the browser makes none. */
 export async function pngOf(svg: string, size: { readonly width: number; readonly height: number }, times: number): Promise<Blob | null> {
   const url = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
   try {

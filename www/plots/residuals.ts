@@ -1,4 +1,4 @@
-/** How the flows of the flat metrics converged: the largest curvature error by Newton step. */
+/** The plot of how the flows to the flat metrics converged: the largest curvature error after each Newton step. */
 import type { Report } from '../report.ts';
 import type { Chart, Curve } from './chart.ts';
 import { evenMarks, logMarks } from './chart.ts';
@@ -13,13 +13,13 @@ const SIDES = [
 function curvesOf(flows: Flows, of: Curve['of'], steps: number): readonly Curve[] {
   return SIDES.flatMap(({ side, name, colour }) => {
     const residuals = flows[side]?.residuals ?? [];
-    // A logarithm has no zero: a residual that small is left out.
+    // Zero has no logarithm, so a residual of 0 is left out.
     const values = Array.from({ length: steps }, (_, k) => (residuals[k] ?? 0) > 0 ? (residuals[k] ?? null) : null);
     return residuals.length === 0 ? [] : [{ name: of === 'now' ? name : `${name} before`, of, colour, values }];
   });
 }
 
-/** The plot; `null` where no flow began. */
+/** The plot; `null` where no flow has begun. */
 export function residualChart(now: Flows, before: Flows | null): Chart | null {
   const all = [now, before].flatMap((flows) => SIDES.map(({ side }) => flows?.[side]?.residuals ?? []));
   const steps = Math.max(...all.map(({ length }) => length));

@@ -1,29 +1,29 @@
-/** How much of the source's area is distorted by how much: the pieces of a map, measured and counted by fine classes. */
+/** Measures the pieces of a map and sums the source's area by how much it is distorted, in fine classes. */
 import type { Pieces } from '../store/state.ts';
 
-/** What can be measured on a piece, see {@link measure}. */
+/** The measures of a piece, see {@link measure}. */
 export const MEASURES = ['density', 'angle', 'area'] as const;
 export type Measure = (typeof MEASURES)[number];
 
-/** Fine classes to a power of ten. */
+/** The number of fine classes in a power of ten. */
 export const CLASSES_PER_DECADE = 1000;
-/** Powers of ten that are told apart from 1 upwards, and downwards where a measure can be below 1. */
+/** The number of powers of ten that the classes cover above 1, and below 1 where a measure can be below 1. */
 const DECADES = 4;
 
-/** Shares of the area by the logarithm of a measure. */
+/** Shares of the area, by classes of the logarithm of a measure. */
 export interface Spectrum {
   /** The logarithm to base 10 of the first class's lower end. */
   readonly first: number;
-  /** Share of the area in each class; what lies beyond the last is in the last. */
+  /** The share of the area in each class; values beyond the last class are counted in it. */
   readonly shares: Float64Array;
   readonly mean: number;
 }
 
 export type Spectra = Readonly<Record<Measure, Spectrum>>;
 
-/** The measures of a linear map from one triangle to another. */
+/** The measures of the linear map from one triangle to another, with the singular values s1 and s2. */
 export interface PieceMeasures {
-  /** (s1² + s2² + s1⁻² + s2⁻²) / 4 with its singular values; 1 for an isometry. */
+  /** (s1² + s2² + s1⁻² + s2⁻²) / 4; 1 for an isometry. */
   readonly density: number;
   /** (s1/s2 + s2/s1) / 2; 1 where angles stay. */
   readonly angle: number;
@@ -38,7 +38,7 @@ interface Flat {
   readonly height: number;
 }
 
-/** Quicker than `Math.hypot`, which guards against numbers that no mesh has. */
+/** The length of a vector; quicker than `Math.hypot`, which also handles numbers that no mesh has. */
 function norm(x: number, y: number, z: number): number {
   return Math.sqrt(x * x + y * y + z * z);
 }
@@ -52,7 +52,7 @@ function flat(places: Float32Array, a: number, b: number, c: number): Flat {
   return { length, along: (ux * vx + uy * vy + uz * vz) / length, height: doubleArea / length };
 }
 
-/** The measures of the map from one triangle to another, both in units of their meshes' sizes; both must have an area. */
+/** The measures of the linear map from one triangle to another, both in units of their meshes' sizes; both must have an area. */
 export function measure(from: Flat, to: Flat): PieceMeasures {
   // The matrix takes (length, 0) to (length, 0) and (along, height) to (along, height) of the other: it is upper triangular.
   const [a, d] = [to.length / from.length, to.height / from.height];
@@ -61,10 +61,10 @@ export function measure(from: Flat, to: Flat): PieceMeasures {
   return { density: (squares + squares / (area * area)) / 4, angle: squares / (2 * area), area };
 }
 
-/** Pieces whose area is below this share of the mesh's are left out: single precision does not tell their shape. */
+/** The least share of the mesh's area that a measured piece has: single precision cannot give the shape of smaller ones. */
 const LEAST_SHARE = 1e-10;
 
-/** Sums up what is measured. */
+/** Sums up one measure over the pieces. */
 class Sum {
   readonly #first: number;
   readonly #shares: Float64Array;
@@ -109,13 +109,13 @@ interface MeasuredPiece {
   readonly measures: PieceMeasures;
 }
 
-/** What brings both meshes to area 1. */
+/** The factors that scale both meshes to area 1. */
 function factorsOf({ triangles, places }: Pieces): readonly [number, number] {
   const factor = (points: Float32Array): number => 1 / Math.sqrt(totalArea(points, triangles));
   return [factor(places[0]), factor(places[1])];
 }
 
-/** The piece whose first corner is this one; `null` where it has no area that could be told. */
+/** The piece whose first corner has this index; `null` where its area is too small to be measured. */
 function measuredPiece({ triangles, places }: Pieces, factors: readonly [number, number], first: number): MeasuredPiece | null {
   const corners = [triangles[first] ?? 0, triangles[first + 1] ?? 0, triangles[first + 2] ?? 0] as const;
   const from = scaled(flat(places[0], ...corners), factors[0]);
@@ -124,7 +124,7 @@ function measuredPiece({ triangles, places }: Pieces, factors: readonly [number,
   return share > LEAST_SHARE && to.length * to.height > 2 * LEAST_SHARE ? { share, measures: measure(from, to) } : null;
 }
 
-/** Tells each piece by the number of its first corner, both meshes scaled to area 1. */
+/** Calls `each` with every piece and the index of its first corner, both meshes scaled to area 1. */
 export function measurePieces(pieces: Pieces, each: (first: number, piece: MeasuredPiece) => void): void {
   const factors = factorsOf(pieces);
   for (let first = 0; first < pieces.triangles.length; first += 3) {
@@ -135,10 +135,10 @@ export function measurePieces(pieces: Pieces, each: (first: number, piece: Measu
   }
 }
 
-/** Pieces that are measured before others get their turn: some milliseconds of work. */
+/** The number of pieces that are measured in one turn: some milliseconds of work. */
 const AT_A_TIME = 30_000;
 
-/** Measures all pieces, both meshes scaled to area 1. It leaves the page room to draw meanwhile: `pause` is awaited again and again. */
+/** Measures all pieces, both meshes scaled to area 1. It awaits `pause` again and again, so that the page can draw meanwhile. */
 export async function spectraOf(pieces: Pieces, pause: () => Promise<void>): Promise<Spectra> {
   const factors = factorsOf(pieces);
   await pause();
@@ -157,7 +157,7 @@ export async function spectraOf(pieces: Pieces, pause: () => Promise<void>): Pro
   return { density: sums.density.spectrum, angle: sums.angle.spectrum, area: sums.area.spectrum };
 }
 
-/** The value that this share of the area stays below, to the width of a class. */
+/** The value below which this share of the area stays, up to the width of a class. */
 export function quantile({ first, shares }: Spectrum, share: number): number {
   let sum = 0;
   const index = shares.findIndex((part) => (sum += part) >= share);

@@ -1,4 +1,4 @@
-/** What both workers of the reader do: they answer one question after the other by their module. */
+/** What both workers of the reader have in common: they answer one question after the other with their wasm module. */
 import { failureOf } from '../compute/messages.ts';
 import { failureSentence } from '../messages.ts';
 import { FileRefused } from '../named-file.ts';
@@ -7,11 +7,11 @@ import type { Answers, Question, ReaderAnswer, ReaderRequest } from './messages.
 declare const self: DedicatedWorkerGlobalScope;
 
 type Asked<Q extends Question> = Extract<ReaderRequest<Q>, { kind: 'question' }>;
-/** A module that was begun. */
+/** A module that is being initialised. */
 type Begun = Promise<{ readonly memory: WebAssembly.Memory }>;
 type Outcome = ReaderAnswer extends infer A ? (A extends ReaderAnswer ? Omit<A, 'id' | 'memory'> : never) : never;
 
-/** The buffers of an answer, to be handed over. */
+/** The buffers in an answer, to be transferred without a copy. */
 function buffersIn(answer: unknown): ArrayBufferLike[] {
   if (answer instanceof Uint8Array) {
     return [answer.buffer];
@@ -19,7 +19,7 @@ function buffersIn(answer: unknown): ArrayBufferLike[] {
   return typeof answer === 'object' && answer !== null ? Object.values(answer).flatMap(buffersIn) : [];
 }
 
-/** Why there is no answer. What the core throws itself is a string; everything else broke it. */
+/** Why there is no answer. An error that the core reports is a string; anything else broke the core. */
 function outcomeOf(thrown: unknown): Outcome {
   if (thrown instanceof FileRefused) {
     const { message: sentence, offer, what } = thrown;
@@ -31,7 +31,7 @@ function outcomeOf(thrown: unknown): Outcome {
     : { kind: 'failed', failure };
 }
 
-/** Answers the questions of the page by a module: `init` begins it, and `answerTo` asks it. */
+/** Answers the questions of the page by a module: `init` initialises it, and `answerTo` asks it. */
 export function answerQuestions<Q extends Question>(
   init: (given: { readonly module_or_path: WebAssembly.Module }) => Begun,
   answerTo: (question: Q) => Answers[Q['kind']],
@@ -53,7 +53,7 @@ export function answerQuestions<Q extends Question>(
     const buffers = new Set(buffersIn(outcome).filter((buffer) => buffer instanceof ArrayBuffer));
     self.postMessage({ ...outcome, id, memory: size } satisfies ReaderAnswer, [...buffers]);
   };
-  // What cannot be answered at all is told as an error of the worker.
+  // An error outside of any answer is reported as an error of the worker.
   const begin = (module: Begun, asked: Asked<Q>): void => {
     answer(module, asked).catch((thrown: unknown) => {
       self.reportError(thrown);
@@ -61,7 +61,7 @@ export function answerQuestions<Q extends Question>(
   };
 
   let module: Begun | null = null;
-  /** Questions that came before the module. */
+  /** Questions that came before the module was loaded. */
   const early: Asked<Q>[] = [];
   self.addEventListener('message', ({ data }: MessageEvent<ReaderRequest<Q>>) => {
     if (data.kind === 'question') {

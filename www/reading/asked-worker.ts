@@ -1,11 +1,11 @@
-/** A worker that answers questions; one that breaks off is replaced, and nothing else is lost. */
+/** A worker that answers questions. One that breaks off is replaced, and only the question that broke it is lost. */
 import type { Failure } from '../compute/messages.ts';
 import { failureOf } from '../compute/messages.ts';
 import { failureSentence } from '../messages.ts';
 import { FileRefused } from '../named-file.ts';
 import type { Answers, Question, ReaderAnswer, ReaderRequest } from './messages.ts';
 
-/** The worker broke off, perhaps for want of memory. */
+/** The error of a worker that broke off, perhaps because memory ran out. */
 export class ReaderBroken extends FileRefused {
   override readonly failure: Failure;
 
@@ -15,7 +15,7 @@ export class ReaderBroken extends FileRefused {
   }
 }
 
-/** In bytes: with more than this a worker that has nothing to do is let go, since memory of its module never shrinks. */
+/** The most memory of an idle worker, in bytes: a worker with more is ended, since the memory of its module never shrinks. */
 const LARGEST_IDLE = 2 ** 28;
 
 interface Asked<Q extends Question> {
@@ -28,9 +28,9 @@ interface Asked<Q extends Question> {
 export class AskedWorker<Q extends Question> {
   readonly #make: () => Worker;
   #worker: Worker | null = null;
-  /** What gives its module. */
+  /** A function that gives the worker's module. */
   #source: (() => Promise<WebAssembly.Module>) | null = null;
-  /** In the order in which they were asked. */
+  /** The open questions, in the order in which they were asked. */
   readonly #asked = new Map<number, Asked<Q>>();
   #next = 0;
 
@@ -38,13 +38,13 @@ export class AskedWorker<Q extends Question> {
     this.#make = make;
   }
 
-  /** Where the module comes from whenever a worker is begun; questions may be asked before. */
+  /** Takes the function that gives the module whenever a worker is begun; questions may be asked before. */
   use(source: () => Promise<WebAssembly.Module>): void {
     this.#source = source;
     this.#equip();
   }
 
-  /** Begins a worker where there is none, also before anybody asks. */
+  /** Begins a worker where there is none, so that it is ready before the first question. */
   begin(): void {
     if (this.#worker === null) {
       this.#worker = this.#made();
@@ -52,7 +52,7 @@ export class AskedWorker<Q extends Question> {
     }
   }
 
-  /** A question's answer. */
+  /** Asks a question, and returns its answer. */
   ask(question: Q, signal: AbortSignal | null): Promise<Answers[Q['kind']]> {
     return new Promise((resolve, reject) => {
       const id = this.#next++;
@@ -65,7 +65,7 @@ export class AskedWorker<Q extends Question> {
       signal?.addEventListener('abort', () => {
         if (this.#asked.delete(id)) {
           reject(new Error('left'));
-          // A worker that reads hears nothing.
+          // A worker that reads receives no messages, so it is ended.
           this.#renew();
         }
       });
@@ -91,7 +91,7 @@ export class AskedWorker<Q extends Question> {
     });
     const broken = (message: string): void => {
       if (worker === this.#worker) {
-        // Which question it was cannot be told: it answers them in their order.
+        // The error does not name its question. Questions are answered in their order, so it is the first one.
         const [id] = this.#asked.keys();
         this.#fail(id, { code: 'worker', message });
       }
@@ -101,7 +101,7 @@ export class AskedWorker<Q extends Question> {
       if ('message' in event) {
         broken(event.message);
       } else if (worker === this.#worker) {
-        // Its script did not come: nothing is wrong with what it was asked.
+        // The worker's script was not loaded, so nothing is wrong with the question.
         this.#giveUp({ code: 'no-core', message: 'the script of a worker' });
       }
     });
@@ -111,7 +111,7 @@ export class AskedWorker<Q extends Question> {
     return worker;
   }
 
-  /** The worker gets its module as soon as that is there. */
+  /** Sends the worker its module as soon as that is loaded. */
   #equip(): void {
     const worker = this.#worker;
     if (worker === null || this.#source === null) {
@@ -131,7 +131,7 @@ export class AskedWorker<Q extends Question> {
     );
   }
 
-  /** A fresh worker goes on with what is not answered; without anything, none does until somebody asks. */
+  /** Ends the worker. A fresh one goes on with the open questions; without any, none is begun until the next question. */
   #renew(): void {
     this.#worker?.terminate();
     this.#worker = null;
@@ -163,7 +163,7 @@ export class AskedWorker<Q extends Question> {
     }
   }
 
-  /** A question broke the worker. */
+  /** Refuses the question that broke the worker, and replaces the worker. */
   #fail(id: number | undefined, failure: Failure): void {
     const asked = id === undefined ? undefined : this.#asked.get(id);
     if (id !== undefined) {
@@ -173,7 +173,7 @@ export class AskedWorker<Q extends Question> {
     asked?.reject(new ReaderBroken(failure));
   }
 
-  /** There is no module: nothing can be answered, and the next question has it fetched again. */
+  /** Refuses all open questions, since there is no module; the next question has it fetched again. */
   #giveUp(failure: Failure): void {
     const asked = [...this.#asked.values()];
     this.#asked.clear();

@@ -1,4 +1,4 @@
-/** Answers about files before their meshes are read, and demos, by the page's module of whoever asks: in the page that is a worker's alone. */
+/** Answers about files before their meshes are read, and builds demos. It runs in a worker of the page, with the page's module. */
 import { contentOf } from '../landmark-files.ts';
 import { isMapFile } from '../map-files.ts';
 import { gathered } from '../mesh-sets.ts';
@@ -7,7 +7,7 @@ import type { DemoFiles as BuiltDemo } from '../wasm/page.js';
 import { buildDemo } from '../wasm/page.js';
 import type { Answers, DemoFiles, FileQuestion, GoodMesh, OwnBytes, SortedFile } from './messages.ts';
 
-/** The files by what they hold. Throws `FileRefused` for those that belong to nothing, and for bad landmark files. */
+/** The files with what each holds. Throws `FileRefused` for files that belong to nothing, and for bad landmark files. */
 function sorted(files: readonly NamedBytes[]): SortedFile[] {
   return gathered(files).map(({ name, bytes, picture }) => {
     const content = isMapFile({ bytes }) ? 'map' : (contentOf({ name, bytes }) ?? 'mesh');
@@ -15,7 +15,7 @@ function sorted(files: readonly NamedBytes[]): SortedFile[] {
   });
 }
 
-/** What reading a demo's file would give: its meshes are good. */
+/** The result that reading a demo's file would give; demos have good meshes. */
 function demoReading(built: BuiltDemo, side: number): GoodMesh {
   const mesh = built.mesh(side);
   const packed = mesh.packed() as OwnBytes;
@@ -40,7 +40,7 @@ function demo(id: string): DemoFiles | null {
   };
 }
 
-/** The answer to a question. Throws `FileRefused`, and what the module throws where it breaks off. */
+/** The answer to a question. Throws `FileRefused`, or the module's own error where it breaks off. */
 export function fileAnswer(question: FileQuestion): Answers[FileQuestion['kind']] {
   switch (question.kind) {
     case 'sort':

@@ -1,4 +1,4 @@
-/** Answers about meshes, by the core of whoever asks: in the page that is a worker's alone. */
+/** Answers about meshes by the core. It runs in a worker of the page. */
 import { failureOf } from '../compute/messages.ts';
 import { fileSentence } from '../messages.ts';
 import type { NamedBytes } from '../named-file.ts';
@@ -14,7 +14,7 @@ import {
 } from '../wasm/core.js';
 import type { Answers, MeshQuestion, MeshReading, MirroredMesh, OwnBytes, ReadFile } from './messages.ts';
 
-/** What is wrong with a mesh that was refused; `null` where there is nothing to be seen of it. */
+/** The defects of a refused mesh, as the core packs them; `null` where no mesh can be shown. */
 function defectsOf(bytes: Uint8Array, allowed: string): OwnBytes | null {
   try {
     return meshDefects(bytes, allowed) as OwnBytes;
@@ -26,7 +26,7 @@ function defectsOf(bytes: Uint8Array, allowed: string): OwnBytes | null {
   }
 }
 
-/** Reads a mesh, and repairs what does not change its shape and what is allowed beyond. Throws where the core breaks off. */
+/** Reads a mesh. It makes all repairs that do not change its shape, and others that are allowed. Throws where the core breaks off. */
 export function meshReading(file: NamedBytes, allowed: Allowed): MeshReading {
   const choices = JSON.stringify(allowed);
   try {
@@ -38,7 +38,7 @@ export function meshReading(file: NamedBytes, allowed: Allowed): MeshReading {
     mesh.free();
     return { kind: 'good', packed, repairs, remarks };
   } catch (thrown) {
-    // What the core throws itself is a string; everything else broke it.
+    // An error that the core reports is a string; anything else broke the core.
     if (typeof thrown !== 'string') {
       throw thrown;
     }
@@ -84,7 +84,7 @@ function plane(packed: Uint8Array, wish: string): string {
   return answer;
 }
 
-/** The answer to a question. Throws `FileRefused`, and what the core throws where it breaks off. */
+/** The answer to a question. Throws `FileRefused`, or the core's own error where it breaks off. */
 export function meshAnswer(question: MeshQuestion): Answers[MeshQuestion['kind']] {
   switch (question.kind) {
     case 'mesh':

@@ -1,4 +1,4 @@
-/** Reads meshes beside the page, and answers what is asked about them. */
+/** The worker that reads meshes and answers questions about them. */
 import init from '../wasm/core.js';
 import { answerQuestions } from './answering.ts';
 import { meshAnswer } from './mesh-answers.ts';

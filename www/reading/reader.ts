@@ -1,4 +1,7 @@
-/** Reads files in two workers, so that the page answers meanwhile: one has the page's module, for files and demos, one the core, for meshes. */
+/**
+ * Reads files in two workers, so that the page can be used meanwhile. One has the page's module, for files and demos; the other has the
+ * core, for meshes.
+ */
 import { fileSentence } from '../messages.ts';
 import type { NamedBytes } from '../named-file.ts';
 import type { Allowed } from '../store/refused.ts';
@@ -6,16 +9,16 @@ import { AskedWorker, ReaderBroken } from './asked-worker.ts';
 import type { Answers, FileQuestion, MeshQuestion, MeshReading, Question } from './messages.ts';
 import { isOfFiles } from './messages.ts';
 
-/** What reads files. Promises fail with `FileRefused`, and with anything once their signal has told to leave it. */
+/** Reads files. Its promises fail with `FileRefused`; after their signal was aborted they fail with any error. */
 export interface FileReader {
-  /** A question's answer. */
+  /** Asks a question, and returns its answer. */
   ask<Kind extends Question['kind']>(
     question: Extract<Question, { readonly kind: Kind }>,
     signal: AbortSignal | null,
   ): Promise<Answers[Kind]>;
 }
 
-/** What became of a mesh file. A failure of the reader is one of the file, so that others are not given up for it. */
+/** Reads a mesh file. A failure of the reader counts as a refusal of this file, so that the other files are still opened. */
 export async function readMesh(reader: FileReader, file: NamedBytes, allowed: Allowed, signal: AbortSignal): Promise<MeshReading> {
   try {
     return await reader.ask({ kind: 'mesh', file, allowed }, signal);
@@ -32,25 +35,25 @@ export async function readMesh(reader: FileReader, file: NamedBytes, allowed: Al
 export class Reader implements FileReader {
   readonly #files = new AskedWorker<FileQuestion>(() => new Worker(new URL('./file-worker.ts', import.meta.url), { type: 'module' }));
   readonly #meshes = new AskedWorker<MeshQuestion>(() => new Worker(new URL('./mesh-worker.ts', import.meta.url), { type: 'module' }));
-  /** A demo that was begun before anybody asked for it. */
+  /** The demo whose building was begun before the page asked for it. */
   #foreseen: { readonly id: string; readonly answer: Promise<Answers['demo']>; readonly end: AbortController } | null = null;
 
   constructor() {
     this.#files.begin();
   }
 
-  /** The page's module has come, and `core` gives the other, which is asked for with the first mesh; questions may be asked before. */
+  /** Takes the page's module, and the function that gives the core, which is called with the first mesh. Questions may be asked before. */
   use(page: WebAssembly.Module, core: () => Promise<WebAssembly.Module>): void {
     this.#files.use(() => Promise.resolve(page));
     this.#meshes.use(core);
   }
 
-  /** Begins with a demo that will be asked for; any other question ends it. */
+  /** Begins to build a demo that will be asked for; any other question ends that. */
   foresee(id: string): void {
     this.#foreseen?.end.abort();
     const end = new AbortController();
     const answer = this.#put({ kind: 'demo', id }, end.signal) as Promise<Answers['demo']>;
-    // Who asks for it hears of a failure.
+    // The failure is reported to whoever asks for the demo.
     answer.catch(() => undefined);
     this.#foreseen = { id, answer, end };
   }

@@ -1,19 +1,22 @@
-/** Addresses of files in links: which are taken, what their files are called, and whom they belong to. */
+/** Addresses of files in links: which are accepted, the names of their files, and the hosts that they belong to. */
 
-/** Longer ones are no addresses of files that people put somewhere. */
+/** The most characters of an address; files that people share have shorter ones. */
 export const LONGEST_ADDRESS = 2048;
 const LONGEST_NAME = 80;
 
-/** Why an address is not taken. */
+/** Why an address is not accepted. */
 export type AddressFault = 'no-address' | 'too-long' | 'not-https' | 'has-password';
 
-/** A file somewhere else. */
+/** A file at an address that is accepted. */
 export interface Address {
-  /** In full. */
+  /** The full address. */
   readonly url: string;
-  /** The file's name to show: the last part of the path, without characters that are not seen or turn the text around. */
+  /**
+   * The name of the file that is shown: the last part of the path, without invisible characters and those that change the direction of the
+   * text.
+   */
   readonly name: string;
-  /** Whom it is fetched from, by name and port; `null` where that is the page's own host. */
+  /** The name and port of the host from which it is fetched; `null` for the page's own host. */
   readonly host: string | null;
 }
 
@@ -25,7 +28,7 @@ function unescaped(text: string): string {
   }
 }
 
-/** A name that comes from outside, as it can be shown: one line, no controls, of bounded length. */
+/** A name that comes from outside, made fit to be shown: one line of bounded length, without control characters. */
 export function shownName(name: string): string {
   const seen = name.replace(/[\p{C}\p{Zl}\p{Zp}]/gu, '').trim();
   const last = seen.slice(Math.max(seen.lastIndexOf('/'), seen.lastIndexOf('\\')) + 1);
@@ -34,8 +37,8 @@ export function shownName(name: string): string {
 }
 
 /**
- * The address that a text means, relative to the page's own `base`. Only https is taken, and whatever the page itself
- * came by.
+ * The address that a text gives, relative to the page's own `base`. Only https is accepted, and whatever protocol the page itself came by
+ * for files of its own host.
  */
 export function addressOf(text: string, base: URL): Address | AddressFault {
   if (text.length > LONGEST_ADDRESS) {

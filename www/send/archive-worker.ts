@@ -1,4 +1,4 @@
-/** Packs and unpacks archives beside the page. */
+/** The worker that packs and unpacks archives. */
 import type { ArchiveAnswer, ArchiveRequest } from './archive.ts';
 import { ArchiveRefused, readArchive, writeArchive } from './archive.ts';
 

@@ -1,8 +1,8 @@
-/** Archives in a worker of their own, so that the page answers while large ones are packed. */
+/** Packs and unpacks archives in a worker, so that the page can be used while large ones are packed. */
 import type { ArchiveAnswer, ArchiveRequest, Archiver } from './archive.ts';
 import { ArchiveRefused } from './archive.ts';
 
-/** One worker for one request: packing is rare, and its memory is free afterwards. */
+/** Asks a worker of its own for each request: packing is rare, and the worker's memory is freed afterwards. */
 function asked(request: ArchiveRequest, handedOver: Transferable[]): Promise<ArchiveAnswer> {
   const worker = new Worker(new URL('./archive-worker.ts', import.meta.url), { type: 'module' });
   return new Promise<ArchiveAnswer>((resolve, reject) => {

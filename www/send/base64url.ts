@@ -1,6 +1,6 @@
 /** Bytes as text that an address can hold: base64url without padding (RFC 4648, section 5). */
 
-/** How many bytes are turned into characters at once; `String.fromCharCode` takes no more arguments than the stack holds. */
+/** The number of bytes that are converted at once; `String.fromCharCode` takes only as many arguments as the stack holds. */
 const PIECE = 4096;
 
 export function toBase64Url(bytes: Uint8Array): string {
@@ -11,9 +11,9 @@ export function toBase64Url(bytes: Uint8Array): string {
   return btoa(characters).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
 }
 
-/** The bytes of a text; `null` where it is no base64url. */
+/** The bytes of a text; `null` where it is not base64url. */
 export function fromBase64Url(text: string): Uint8Array<ArrayBuffer> | null {
-  // One character left over holds six bits, less than a byte.
+  // A single character that is left over holds six bits, which is less than a byte.
   if (!/^[\w-]*$/.test(text) || text.length % 4 === 1) {
     return null;
   }

@@ -1,4 +1,4 @@
-/** Fetches files that a link names: without credentials or referrer, bounded in size, and given up at a word. */
+/** Fetches the files that a link names: without credentials or referrer, limited in size, and stopped on demand. */
 import type { Address } from './address.ts';
 
 /** The most bytes that one file of a link may have. */
@@ -24,14 +24,14 @@ export class FetchRefused extends Error {
   }
 }
 
-/** What a fetch is given beside its address. */
+/** The terms of a fetch: how it is stopped, and who hears of its progress. */
 export interface FetchTerms {
   readonly signal: AbortSignal;
-  /** Hears of bytes that came and of how many are expected, `null` where the server does not say. */
+  /** Hears of the bytes that have come, and of how many are expected; `null` where the server does not say. */
   readonly progress: (loaded: number, expected: number | null) => void;
 }
 
-/** The length that the server tells; it may lie. */
+/** The length that the server states, which may be wrong; `null` where it states none. */
 function toldLength(response: Response): number | null {
   const told = response.headers.get('content-length');
   return told !== null && /^\d{1,15}$/.test(told) ? Number(told) : null;
@@ -41,7 +41,7 @@ async function answer(address: Address, signal: AbortSignal): Promise<Response> 
   const response = await fetch(address.url, {
     credentials: 'omit',
     referrerPolicy: 'no-referrer',
-    // Whoever agreed to one host did not agree to the next one, and the browser does not say which it is.
+    // A user who has agreed to one host has not agreed to the one that it redirects to, and the browser does not say which that is.
     redirect: 'manual',
     signal,
   });
@@ -73,7 +73,7 @@ async function bodyOf(response: Response, address: Address, terms: FetchTerms): 
       await reader?.cancel();
       throw new FetchRefused({ kind: 'too-large' }, address);
     }
-    // What is packed on its way comes out longer than what was told.
+    // A compressed file grows beyond the stated length when it is unpacked.
     terms.progress(size, expected !== null && size <= expected ? expected : null);
   }
   const bytes = new Uint8Array(size);
@@ -93,7 +93,7 @@ export async function fetchBytes(address: Address, terms: FetchTerms): Promise<U
     if (thrown instanceof FetchRefused) {
       throw thrown;
     }
-    // The browser tells a host that does not answer from one that lets no other page read by no sign.
+    // The browser reports a host that does not answer and one that forbids other pages to read its files in the same way.
     throw new FetchRefused({ kind: terms.signal.aborted ? 'cancelled' : 'unreachable' }, address);
   }
 }

@@ -1,7 +1,7 @@
 /**
- * Links: what an address says behind its `#`, and the address of what is on the page. Three forms are read:
- * `#demo=name`, `#source=URL&target=URL&landmarks=URL`, and `#s=1.` with packed JSON. Everything in a link comes from
- * strangers: lengths are judged first, then the shape of every part; what does not hold is refused with its reason.
+ * Links: reads what an address holds behind its `#`, and writes the address of what is on the page. Three forms are read: `#demo=name`,
+ * `#source=URL&target=URL&landmarks=URL`, and `#s=1.` with packed JSON. A link may come from anybody: its length is checked first, then the
+ * shape of every part; a link that fails is refused with the reason.
  */
 import * as v from 'valibot';
 import type { Side } from '../landmarks.ts';
@@ -16,28 +16,28 @@ import type { SentPair, SentWork } from './schema.ts';
 import { surfacePoint, VERSION, WireLink, wirePoint } from './wire.ts';
 import type { WireFile, WirePoint, WrittenLink } from './wire.ts';
 
-/** In characters, of all behind the `#`. */
+/** The most characters behind the `#`, with the `#`. */
 export const LONGEST_LINK = 65_536;
-/** In bytes, of the JSON in a link: several times what the longest one with sound pairs inflates to. */
+/** The most bytes of the JSON in a link, several times what the longest valid one unpacks to. */
 export const LARGEST_JSON = 400_000;
 
-/** A mesh that a link speaks of: somewhere else, or in the hands of whoever opens the link. */
+/** A mesh that a link names: a file at an address, or one that whoever opens the link must have. */
 export type LinkedFile =
   | { readonly kind: 'address'; readonly address: Address }
   | { readonly kind: 'local'; readonly name: string; readonly hash: string };
 
-/** What a link says. */
+/** The content of a link. */
 export interface Link {
-  /** The demo whose meshes these are; then there are no files. */
+  /** The id of the demo whose meshes these are; `null` where the link names files. */
   readonly demo: string | null;
   readonly files: readonly [LinkedFile | null, LinkedFile | null];
-  /** Where a landmark file is. */
+  /** The address of a landmark file; `null` for none. */
   readonly landmarks: Address | null;
-  /** `null` where the link leaves it to the demo or the landmark file. */
+  /** The work on the meshes; `null` where the link leaves it to the demo or the landmark file. */
   readonly work: SentWork | null;
 }
 
-/** What was read behind the `#`. */
+/** The result of reading a link; `none` where the address has nothing behind the `#`. */
 export type Reading =
   | { readonly kind: 'none' }
   | { readonly kind: 'link'; readonly link: Link }
@@ -49,7 +49,7 @@ function refused(fault: LinkFault): Reading {
   return { kind: 'refused', fault };
 }
 
-/** Reads what an address has behind its `#`; `base` is the address of the page. */
+/** Reads the link in an address; `hash` begins with the `#`, and `base` is the address of the page. */
 export function readLink(hash: string, base: URL): Reading {
   if (hash.length > LONGEST_LINK) {
     return refused('too-long');
@@ -68,7 +68,7 @@ export function readLink(hash: string, base: URL): Reading {
     : { kind: 'link', link: { demo, files: [null, null], landmarks: null, work: null } };
 }
 
-/** Thrown and caught in here alone. */
+/** The error of a refused link; it is thrown and caught only in this file. */
 class Refused extends Error {
   readonly fault: LinkFault;
 
@@ -86,7 +86,7 @@ function address(text: string, base: URL): Address {
   return found;
 }
 
-/** What is read by something that throws {@link Refused}. */
+/** The result of a function that throws {@link Refused} where it refuses the link. */
 function reading(read: () => Link): Reading {
   try {
     return { kind: 'link', link: read() };
@@ -194,14 +194,14 @@ function wireFile(file: LinkedFile | null): WireFile {
   }
 }
 
-/** Figures that a camera keeps: finer than a pixel. */
+/** The number of digits that are kept of a camera's numbers: finer than a pixel. */
 const CAMERA_FIGURES = 5;
 
 function wireCamera(camera: Camera | null): number[] | null {
   return camera?.map((value) => Number(value.toPrecision(CAMERA_FIGURES))) ?? null;
 }
 
-/** Without usual choices that links had not before there was one. */
+/** The style without fields that have their usual values and that links of earlier versions do not have. */
 function wireStyle({ textureBoundary, texture, ...style }: Style): WrittenLink['s'] {
   const usual = INITIAL.ui.style.texture;
   const isUsual = texture.cells === usual.cells && texture.turn === usual.turn && texture.x === usual.x && texture.y === usual.y;
@@ -224,14 +224,14 @@ function wireLink(link: Link, work: SentWork): WrittenLink {
     ...(radii.length === 0 ? {} : { r: radii }),
     ...(work.groundTruth === null ? {} : { g: work.groundTruth }),
     u: [...work.up],
-    // Usual choices are left out, as they were before there was one.
+    // The usual choice is left out, as in links from before this was a choice.
     o: borders === 'guess' ? options : work.options,
     c: [wireCamera(work.cameras[0]), wireCamera(work.cameras[1])],
     s: wireStyle(work.style),
   };
 }
 
-/** What stands behind the `#` of a link that says this, with the `#`. */
+/** The link with its `#`, to stand behind the page's address. */
 export function writeLink(link: Link): string {
   if (link.work !== null) {
     return `#s=${VERSION}.${pack(JSON.stringify(wireLink(link, link.work)))}`;

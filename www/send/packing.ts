@@ -1,15 +1,15 @@
-/** Text packed into an address by raw deflate (RFC 1951) and base64url, and unpacked again within bounds. */
+/** Packs text for an address by raw deflate (RFC 1951) and base64url, and unpacks it again within limits. */
 import { deflateSync, Inflate } from 'fflate';
 import { fromBase64Url, toBase64Url } from './base64url.ts';
 
-/** Packed bytes that are inflated at once: each gives at most 1032, so the bound is overstepped by 2 MB at most. */
+/** The number of packed bytes that are inflated at once. Each gives at most 1032 bytes, so the limit is exceeded by at most 2 MB. */
 const PIECE = 2048;
 
 export function pack(text: string): string {
   return toBase64Url(deflateSync(new TextEncoder().encode(text), { level: 9 }));
 }
 
-/** The bytes behind packed ones; `null` where they are damaged, end too early or become more than `limit`. */
+/** The unpacked bytes; `null` where the packed ones are damaged, end too early, or give more than `limit` bytes. */
 function inflated(packed: Uint8Array, limit: number): Uint8Array | null {
   const pieces: Uint8Array[] = [];
   const come = { size: 0, isWhole: false };
@@ -38,7 +38,7 @@ function inflated(packed: Uint8Array, limit: number): Uint8Array | null {
   return bytes;
 }
 
-/** The text that was packed; `null` where there is none, or one of more than `limit` bytes. */
+/** The text that was packed; `null` where there is none, or where it has more than `limit` bytes. */
 export function unpack(packed: string, limit: number): string | null {
   const bytes = fromBase64Url(packed);
   const text = bytes === null ? null : inflated(bytes, limit);

@@ -1,6 +1,6 @@
 /**
- * The project file, `.conemap.zip`: both meshes byte for byte, the work on them, and the map where there is one, in one
- * archive. `conemap.json` says what is in it, and is what is read; `landmarks.json` beside it is for other programs.
+ * The project file, `.conemap.zip`: an archive of both meshes byte for byte, the work on them, and the map where there is one. Its file
+ * `conemap.json` lists the content, and is what the page reads; `landmarks.json` beside it is for other programs.
  */
 import * as v from 'valibot';
 import type { ProjectFault } from '../messages.ts';
@@ -13,23 +13,23 @@ import { SentWorkSchema } from './schema.ts';
 
 export const PROJECT_ENDING = '.conemap.zip';
 
-/** What is written; higher ones are not read. */
+/** The version that is written; files of higher versions are not read. */
 const VERSION = 1;
 const MANIFEST = 'conemap.json';
 const LANDMARKS = 'landmarks.json';
 const MAP = 'map.conemap';
 const REPORT = 'report.json';
-/** In bytes, of the manifest: some 100 for each of 10,000 pairs. */
+/** The most bytes of the manifest: some 100 for each of 10,000 pairs. */
 const LARGEST_MANIFEST = 4_000_000;
 
 /** A mesh of a project. */
 export interface ProjectMesh {
   readonly name: string;
-  /** As the file was given. */
+  /** The bytes of the file as it was given. */
   readonly bytes: Uint8Array;
-  /** Where it was loaded from; `null` where it was given by hand. */
+  /** The address from which the mesh was loaded; `null` where it was given by hand. */
   readonly address: string | null;
-  /** What came with it to be laid on it; there is none where its own file holds all. */
+  /** The picture or materials that came with it; missing where its own file holds everything. */
   readonly picture?: Uint8Array;
 }
 
@@ -37,11 +37,11 @@ export interface ProjectMesh {
 export interface Project {
   readonly meshes: readonly [ProjectMesh | null, ProjectMesh | null];
   readonly work: SentWork;
-  /** The map's own file and the report of its run, where there is a map. */
+  /** The map file and the report of its run; `null` where there is no map. */
   readonly result: { readonly map: Uint8Array | null; readonly report: string } | null;
 }
 
-/** A project file that is not opened. */
+/** The error of a project file that is not opened. */
 export class ProjectRefused extends Error {
   readonly fault: ProjectFault;
 
@@ -55,7 +55,7 @@ const MeshEntry = v.nullable(
   v.object({
     name: v.pipe(v.string(), v.minLength(1), v.maxLength(1000)),
     entry: v.pipe(v.string(), v.regex(/^(?:source|target)\/[^/\\]+$/)),
-    /** SHA-256 of its bytes in base64url; `null` where the page could not tell. */
+    /** The SHA-256 hash of the bytes in base64url; `null` where the page could not compute it. */
     hash: v.nullable(v.pipe(v.string(), v.regex(/^[\w-]{43}$/))),
     address: v.nullable(v.pipe(v.string(), v.maxLength(LONGEST_ADDRESS))),
     picture: v.exactOptional(v.picklist(['pictures/source', 'pictures/target'])),
@@ -68,7 +68,7 @@ const Manifest = v.object({
   ...Versioned.entries,
   meshes: v.strictTuple([MeshEntry, MeshEntry]),
   work: SentWorkSchema,
-  /** Which of the files of the result are there. */
+  /** The files of the result that the archive has. */
   result: v.nullable(v.object({ map: v.nullable(v.literal(MAP)), report: v.literal(REPORT) })),
 });
 type Manifest = v.InferOutput<typeof Manifest>;
@@ -92,7 +92,7 @@ async function entriesOf(project: Project, landmarks: string): Promise<Entries> 
     format: 'conemap-project',
     version: VERSION,
     meshes: [source, target],
-    // Checked lists are not read-only; these are not written to.
+    // The lists of the schema's type are not read-only; these lists are never written to.
     work: work as Manifest['work'],
     result: result === null ? null : { map: result.map === null ? null : MAP, report: REPORT },
   };
@@ -142,7 +142,7 @@ function parsed(bytes: Uint8Array): unknown {
   }
 }
 
-/** Whether these bytes are an archive that says of itself that it is a project, whole or not. */
+/** Whether these bytes are an archive that calls itself a project, complete or not. */
 export function isProject(bytes: Uint8Array): boolean {
   try {
     return isArchive(bytes) && manifestBytes(bytes) !== undefined;
@@ -184,7 +184,7 @@ async function meshOf(entry: MeshEntry, files: Entries): Promise<ProjectMesh | n
     throw new ProjectRefused('mesh-changed');
   }
   const address = entry.address === null ? 'no-address' : addressOf(entry.address, new URL('https://none.invalid/'));
-  // Without its picture a mesh is still the mesh.
+  // A mesh whose picture is missing is shown without it.
   const picture = entry.picture === undefined ? undefined : files[entry.picture];
   return {
     name: shownName(entry.name),
@@ -195,8 +195,8 @@ async function meshOf(entry: MeshEntry, files: Entries): Promise<ProjectMesh | n
 }
 
 /**
- * The project in an archive, whose bytes are gone afterwards. The files of a result are taken as they are, and judged by
- * whoever opens them. Throws {@link ProjectRefused}.
+ * The project in an archive; the array of its bytes is emptied by this. The files of a result are taken as they are, and checked when they
+ * are opened. Throws {@link ProjectRefused}.
  */
 export async function readProject(archive: Uint8Array, archiver: Archiver): Promise<Project> {
   const { meshes, work, result } = manifestOf(archive);
@@ -214,7 +214,7 @@ export async function readProject(archive: Uint8Array, archiver: Archiver): Prom
   };
 }
 
-/** The project as one file; `landmarks` is the landmark file of its whole pairs. */
+/** The project as one file; `landmarks` is the landmark file of the pairs that have both points. */
 export async function writeProject(project: Project, landmarks: string, archiver: Archiver): Promise<Uint8Array<ArrayBuffer>> {
   return archiver.write(await entriesOf(project, landmarks));
 }

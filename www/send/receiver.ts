@@ -1,6 +1,6 @@
 /**
- * Receives a link: asks before anything is fetched from another host, fetches, waits for the files that must be given by hand,
- * and hands everything over at once. Until then nothing on the page changes.
+ * Receives a link: asks before anything is fetched from another host, fetches the files, waits for those that must be given by hand, and
+ * hands everything over at once. Until then nothing on the page changes.
  */
 import { SIDES } from '../landmarks.ts';
 import type { HostFiles, Missing, Receiving } from '../store/receiving.ts';
@@ -10,40 +10,40 @@ import { fetchBytes, FetchRefused } from './fetching.ts';
 import { hashOf } from './hash.ts';
 import type { Link, LinkedFile } from './link.ts';
 
-/** Some named bytes. */
+/** The bytes of a file with its name. */
 interface NamedBytes {
   readonly name: string;
   readonly bytes: Uint8Array;
 }
 
-/** A mesh of a link that has arrived, with the address that it has come from; `null` where it was given by hand. */
+/** A mesh of a link that has come, with the address from which it was loaded; `null` where it was given by hand. */
 export interface Arrived extends NamedBytes {
   readonly address: Address | null;
 }
 
-/** A link with all that it needs. */
+/** A link with all files that it needs. */
 export interface Delivery {
   readonly link: Link;
   readonly meshes: readonly [Arrived | null, Arrived | null];
   readonly landmarks: NamedBytes | null;
 }
 
-/** What a receiver tells the page. */
+/** The listener of a receiver. */
 export interface ReceiverListener {
   changed(receiving: Receiving): void;
-  /** Everything is there. */
+  /** Called when everything has come. */
   delivered(delivery: Delivery): void;
   failed(fault: FetchFault, address: Address): void;
 }
 
-/** The addresses of a link, each once. */
+/** The addresses in a link, each listed once. */
 function addressesOf(link: Link): Address[] {
   const files = link.files.flatMap((file) => (file?.kind === 'address' ? [file.address] : []));
   const all = link.landmarks === null ? files : [...files, link.landmarks];
   return all.filter((address, index) => all.findIndex(({ url }) => url === address.url) === index);
 }
 
-/** The files that a link would have fetched from hosts that are not the page's own. */
+/** The files that a link loads from hosts other than the page's own. */
 export function foreignFiles(link: Link): HostFiles[] {
   const hosts = new Map<string, string[]>();
   for (const { host, name } of addressesOf(link)) {
@@ -54,12 +54,12 @@ export function foreignFiles(link: Link): HostFiles[] {
   return [...hosts].map(([host, names]) => ({ host, names }));
 }
 
-/** A link on its way in. */
+/** A link whose files are still coming. */
 interface Arrival {
   readonly link: Link;
   readonly abort: AbortController;
   readonly fetched: Map<string, Uint8Array>;
-  /** By hash. */
+  /** The files that were given by hand, by their hashes. */
   readonly given: Map<string, NamedBytes>;
 }
 
@@ -76,7 +76,7 @@ export class Receiver {
     return this.#receiving;
   }
 
-  /** Begins with a link, in place of one that is not done. */
+  /** Begins with a link, and gives up an earlier one that is not finished. */
   receive(link: Link): void {
     this.cancel();
     const arrival: Arrival = { link, abort: new AbortController(), fetched: new Map(), given: new Map() };
@@ -89,7 +89,7 @@ export class Receiver {
     }
   }
 
-  /** The click that the link waits for. */
+  /** Fetches the files, after the click that the link waits for. */
   accept(): void {
     if (this.#arrival !== null && this.#receiving.kind === 'click') {
       void this.#fetchAll(this.#arrival);
@@ -105,7 +105,7 @@ export class Receiver {
     }
   }
 
-  /** Takes the files that the link waits for; the others come back. */
+  /** Takes the files that the link waits for, and returns the others. */
   async take(files: readonly NamedBytes[]): Promise<readonly NamedBytes[]> {
     const arrival = this.#arrival;
     if (arrival === null || this.#receiving.kind !== 'files') {
@@ -153,7 +153,7 @@ export class Receiver {
       }
       this.#goOn(arrival);
     } catch (thrown) {
-      // A link that was given up has nothing to say any more.
+      // A link that was given up reports nothing.
       if (arrival === this.#arrival) {
         this.cancel();
         if (!(thrown instanceof FetchRefused)) {
@@ -164,7 +164,7 @@ export class Receiver {
     }
   }
 
-  /** Waits for the files that are missing, or hands all over. */
+  /** Waits for the files that are missing, or hands everything over. */
   #goOn(arrival: Arrival): void {
     const missing = SIDES.flatMap((side): Missing[] => {
       const file = arrival.link.files[side];

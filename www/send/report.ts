@@ -1,11 +1,11 @@
-/** The shape of a run's report as a map file holds it: the file may come from anywhere. */
+/** The shape of a run's report in a map file, which may come from anywhere and is therefore checked. */
 import * as v from 'valibot';
 import { BORDERS } from '../options.ts';
 import type { BorderCase, FindingKind, MeshSide, RepairKind, Report } from '../report.ts';
 import { wordsOf } from '../unions.ts';
 import { Index, Text, Weight } from './schema.ts';
 
-/** In characters: some hundred kB with ten thousand landmarks in doubt. */
+/** The most characters of a report; one with ten thousand doubtful landmarks has some hundred kB. */
 const LONGEST = 10_000_000;
 
 const Figure = v.pipe(v.number(), v.finite());
@@ -33,7 +33,7 @@ const Finding = v.object({
   vertices: v.array(Index),
 });
 
-/** Fields that it does not know go. */
+/** The shape of a report; fields that it does not list are dropped. */
 export const ReportSchema = v.object({
   base_domain: v.object({ vertices: Index, faces: Index }),
   layout: v.nullable(
@@ -48,7 +48,7 @@ export const ReportSchema = v.object({
   ),
   own_landmarks: Index,
   cone_metric: v.object({ source: v.nullable(ConeMetric), target: v.nullable(ConeMetric) }),
-  // Files of before it was measured have none.
+  // Files from before this was measured do not have it.
   coverage: v.optional(v.nullable(v.object({ source: Figure, target: Figure, hidden: Figure })), null),
   borders: v.optional(
     v.nullable(
@@ -91,7 +91,7 @@ export const ReportSchema = v.object({
   seconds: v.record(Text, Figure),
 }) satisfies v.GenericSchema<unknown, Report>;
 
-/** The report in a text; `null` where there is none. */
+/** The report in a text; `null` where the text is not a report. */
 export function reportIn(text: string): Report | null {
   if (text.length > LONGEST) {
     return null;

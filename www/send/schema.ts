@@ -1,4 +1,4 @@
-/** The shape of what comes by links and project files beside the meshes, and the bounds of its parts. */
+/** The shape of everything beside the meshes that comes with links and project files, and the limits of its parts. */
 import * as v from 'valibot';
 import type { Pair, SurfacePoint } from '../landmarks.ts';
 import { MAX_RADIUS } from '../landmarks.ts';
@@ -8,21 +8,21 @@ import type { Axis as UpAxis, Camera, PlainSurface, Style, TexturePlace, Work } 
 import { FLOW_HEATS, INITIAL, MAP_HEATS, TEXTURES } from '../store/state.ts';
 import { wordsOf } from '../unions.ts';
 
-/** More pairs than a map was ever made of. */
+/** The most pairs: more than any map was ever made from. */
 export const MOST_PAIRS = 10_000;
-/** Longer than any name, label or sentence that is meant for eyes. */
+/** The most characters of a text, more than any name, label or sentence has. */
 const LONGEST_TEXT = 10_000;
-/** A camera is some ten numbers. */
+/** The most numbers of a camera, which has about ten. */
 const LONGEST_CAMERA = 32;
 const MOST_OWN_CONES = 1000;
-/** Cells of a texture to a unit of texture coordinates. */
+/** The most cells of a texture per unit of texture coordinates. */
 const MOST_CELLS = 1000;
 
 const Share = v.pipe(v.number(), v.minValue(0), v.maxValue(1));
 
-/** A number of a vertex, face or place in a list. */
+/** The number of a vertex or face, or an index in a list. */
 export const Index = v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(2 ** 32 - 1));
-/** Whether three weights belong together is the core's to judge, as in a landmark file. */
+/** A barycentric weight. Whether three of them belong together is checked by the core, as for a landmark file. */
 export const Weight = v.pipe(v.number(), v.finite(), v.minValue(-1), v.maxValue(2));
 export const Text = v.pipe(v.string(), v.maxLength(LONGEST_TEXT));
 export const Axis = v.picklist(wordsOf<UpAxis>({ x: true, '-x': true, y: true, '-y': true, z: true, '-z': true }));
@@ -32,11 +32,11 @@ export const Options = v.object({
   cones: v.picklist(wordsOf(CONES)),
   class: v.picklist(wordsOf(CLASSES)),
   ownCones: v.nullable(v.pipe(Index, v.maxValue(MOST_OWN_CONES))),
-  // Links and maps of before it was a choice do not tell it.
+  // Links and maps from before this was a choice do not have it.
   borders: v.optional(v.picklist(wordsOf(BORDERS)), 'guess'),
 }) satisfies v.GenericSchema<unknown, RunOptions>;
 
-/** The options in a text; `null` where there are none. */
+/** The options in a text; `null` where the text holds none. */
 export function optionsIn(text: string): RunOptions | null {
   try {
     const parsed = v.safeParse(Options, JSON.parse(text));
@@ -67,7 +67,7 @@ export const StyleSchema = v.object({
   patchLines: v.boolean(),
   cones: v.boolean(),
   markers: v.boolean(),
-  // Links, projects and sessions of earlier pages do not have these.
+  // Links, projects and sessions of earlier versions of the page do not have these.
   texture: v.optional(TexturePlaceSchema, INITIAL.ui.style.texture),
   textureBoundary: v.optional(v.boolean(), false),
   morph: v.optional(Share, 0),
@@ -78,26 +78,26 @@ const Point = v.nullable(
   v.union([Index, v.object({ face: Index, barycentric: v.strictTuple([Weight, Weight, Weight]) })]),
 ) satisfies v.GenericSchema<SurfacePoint | null>;
 
-/** How far a soft pair may be moved. An older reader holds it. */
+/** The radius within which a soft pair may be moved. Earlier versions of the page ignore it and hold the pair. */
 export const Radius = v.pipe(v.number(), v.gtValue(0), v.maxValue(MAX_RADIUS));
 
-/** A pair without its id, which is of one page only. */
+/** A pair without its id, which is valid on one page only. */
 export type SentPair = Omit<Pair, 'id'>;
 
-/** Everything but the meshes: the work on them, and how it was looked at. */
+/** Everything but the meshes: the work on them, and how it was viewed. */
 export interface SentWork extends Pick<Work, 'up' | 'groundTruth' | 'options'> {
   readonly pairs: readonly SentPair[];
   readonly cameras: readonly [Camera | null, Camera | null];
   readonly style: Style;
 }
 
-/** Whether every pair has a point, and a number of its own. */
+/** Whether every pair has a point, and no two pairs have the same number. */
 export function areSound(pairs: readonly SentPair[]): boolean {
   const numbers = new Set(pairs.map(({ number }) => number));
   return numbers.size === pairs.length && pairs.every(({ points }) => points[0] !== null || points[1] !== null);
 }
 
-/** The work as a project file holds it. */
+/** The shape of the work in a project file. */
 export const SentWorkSchema = v.object({
   pairs: v.pipe(
     v.array(

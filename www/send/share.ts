@@ -1,23 +1,23 @@
-/** What the page sends: the link to what is on it, and what its receiver will see. */
+/** Makes the link to what is on the page, and foresees what its receiver will see. */
 import type { HostFiles } from '../store/receiving.ts';
 import type { Link } from './link.ts';
 import { writeLink } from './link.ts';
 import { foreignFiles } from './receiver.ts';
 
-/** From this length on, in characters, programs that pass links on begin to cut them. */
+/** The length of a link, in characters, from which on some programs that pass links on cut them. */
 export const SAFE_LENGTH = 2000;
 
-/** What happens to whoever opens a link. */
+/** What a link will ask of whoever opens it. */
 export interface Prospect {
-  /** Files that must be sent beside the link. */
+  /** The names of the files that must be sent beside the link. */
   readonly needed: readonly string[];
-  /** Files that are loaded after a click. */
+  /** The files that are loaded after a click, by host. */
   readonly loaded: readonly HostFiles[];
-  /** Whether the link is so long that it may be cut on its way. */
+  /** Whether the link is so long that some programs may cut it. */
   readonly isLong: boolean;
 }
 
-/** What whoever opens the link at `url` will meet. */
+/** What the link at `url` will ask of whoever opens it. */
 export function prospectOf(link: Link, url: string): Prospect {
   return {
     needed: link.files.flatMap((file) => (file?.kind === 'local' ? [file.name] : [])),

@@ -1,7 +1,7 @@
 /**
- * The JSON inside a link, version 1: short names and flat lists, because an address must stay short. What a reader may leave
- * out without showing something else may be added to a version; everything else (repairs, textures, other kinds of points)
- * needs a new one, and a writer takes the lowest version that can say what it has to say.
+ * The JSON inside a link, version 1: its names are short and its lists flat, because an address must stay short. A version may get new
+ * fields that a reader can ignore without showing something else; everything else (repairs, textures, other kinds of points) needs a new
+ * version, and a writer takes the lowest version that can hold its content.
  */
 import * as v from 'valibot';
 import type { SurfacePoint } from '../landmarks.ts';
@@ -12,22 +12,25 @@ import { Axis, Cameras, Index, MOST_PAIRS, Options, Radius, StyleSchema, Text, W
 
 export const VERSION = 1;
 
-/** Parts of one that a barycentric weight of a click is a whole number of, as `rounded` makes it. */
+/** The number of steps from 0 to 1 of a click's barycentric weights, as `rounded` makes them. */
 const STEPS = 10_000;
-/** How many values such a weight has. */
+/** The number of values that such a weight can have. */
 const VALUES = STEPS + 1;
 
-/** A click: face, first and second weight in steps as one number, `(face * VALUES + first) * VALUES + second`. */
+/** A click as one number, `(face * VALUES + first) * VALUES + second`, from its face and its first and second weight in steps. */
 const Click = v.pipe(
   v.number(),
   v.safeInteger(),
   v.minValue(0),
   v.check((click) => (click % VALUES) + (Math.floor(click / VALUES) % VALUES) <= STEPS),
 );
-/** The highest face that a click can be in. */
+/** The highest number of a face that a click can be in. */
 const LAST_FACE = Math.floor(Number.MAX_SAFE_INTEGER / VALUES ** 2) - 1;
 
-/** A point: a click; a vertex in a list of one; a face with three weights in full, where they are no whole steps; or none. */
+/**
+ * A point: a click; a vertex as a list of one number; a face with three weights, where these are not whole steps; or an empty list for
+ * none.
+ */
 const WirePoint = v.union([
   Click,
   v.strictTuple([Index]),
@@ -36,45 +39,45 @@ const WirePoint = v.union([
 ]);
 const WirePoints = v.pipe(v.array(WirePoint), v.maxLength(MOST_PAIRS));
 
-/** A mesh by its address, or by its hash and name. */
+/** A mesh: its address, or its hash and name; empty for none. */
 const WireFile = v.union([
   v.strictTuple([v.pipe(v.string(), v.minLength(1), v.maxLength(LONGEST_ADDRESS))]),
   v.strictTuple([v.pipe(v.string(), v.regex(/^[\w-]{43}$/)), Text]),
   v.strictTuple([]),
 ]);
 
-/** What a link holds beside where its meshes are. */
+/** The content of a link beside the addresses of its meshes. */
 export const WireLink = v.object({
-  /** A demo, or two files. */
+  /** The id of a demo, or two files. */
   d: v.optional(v.pipe(Text, v.minLength(1))),
   f: v.optional(v.strictTuple([WireFile, WireFile])),
   /** The pairs' points on the source and on the target. */
   p: v.strictTuple([WirePoints, WirePoints]),
   /** The pairs' numbers where they are not 1, 2, 3 … */
   i: v.optional(v.pipe(v.array(v.pipe(Index, v.minValue(1))), v.maxLength(MOST_PAIRS))),
-  /** Their labels, as long as there are any. */
+  /** The labels of the pairs; left out where there are none. */
   n: v.optional(v.pipe(v.array(Text), v.maxLength(MOST_PAIRS))),
-  /** Places in the list of those that are locked. */
+  /** The indices of the locked pairs. */
   x: v.optional(v.pipe(v.array(Index), v.maxLength(MOST_PAIRS))),
-  /** Places in the list of those that are soft, each with its radius. */
+  /** The indices of the soft pairs, each with its radius. */
   r: v.optional(v.pipe(v.array(v.strictTuple([Index, Radius])), v.maxLength(MOST_PAIRS))),
-  /** What is known of the true map, as landmark files say it. */
+  /** What is known about the true map, in the words of landmark files. */
   g: v.optional(Text),
-  /** Which direction of each file is up. */
+  /** The direction of each file that points up. */
   u: v.strictTuple([Axis, Axis]),
   o: Options,
-  /** How it was looked at: what this page does not know of it is as at the start. */
+  /** How the work was viewed; a field whose value this page does not know gets its initial value. */
   c: v.fallback(Cameras, [null, null]),
   s: v.fallback(StyleSchema, INITIAL.ui.style),
 });
 
 export type WireLink = v.InferOutput<typeof WireLink>;
-/** What usual choices may be left out of. */
+/** A link as it is written, in which usual choices may be left out. */
 export type WrittenLink = v.InferInput<typeof WireLink>;
 export type WirePoint = v.InferOutput<typeof WirePoint>;
 export type WireFile = v.InferOutput<typeof WireFile>;
 
-/** A point in as few characters as give the very same point back. */
+/** A point in the fewest characters that give exactly the same point back. */
 export function wirePoint(point: SurfacePoint | null): WirePoint {
   if (point === null || typeof point === 'number') {
     return point === null ? [] : [point];
@@ -86,7 +89,7 @@ export function wirePoint(point: SurfacePoint | null): WirePoint {
   return isClick && isSamePoint(surfacePoint(click), point) ? click : [face, ...barycentric];
 }
 
-/** The point that was meant. */
+/** The point that a wire point stands for; `null` for none. */
 export function surfacePoint(point: WirePoint): SurfacePoint | null {
   if (typeof point === 'number') {
     const second = point % VALUES;

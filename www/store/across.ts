@@ -1,15 +1,15 @@
-/** Which planes are in use, and which pairs are each other's mirror image. */
+/** Which mirror planes are in use, and which pairs are each other's mirror image. */
 import type { Pair, Side } from '../landmarks.ts';
 import type { MeshPlane, Plane } from './left-right.ts';
 import type { State } from './state.ts';
 
-/** Two points of a side, those that were placed last, with their pairs' numbers; `null` where there are not as many. */
+/** The pairs of the two points of a side that were placed last; `null` where there are not two. */
 export function lastTwo({ pairs }: Pick<State, 'pairs'>, side: Side): readonly [Pair, Pair] | null {
   const [b, a] = pairs.filter(({ points }) => points[side] !== null).toSorted((p, q) => q.id - p.id);
   return a === undefined || b === undefined ? null : [a, b];
 }
 
-/** The plane by which points of a side get their partners now; `null` for none. */
+/** The plane that now gives the points of a side their mirror images; `null` for none. */
 export function planeInUse({ leftRight, meshes }: Pick<State, 'leftRight' | 'meshes'>, side: Side): Plane | null {
   const known = leftRight.planes[side];
   if (!leftRight.isOn || known?.of !== meshes[side] || known.answer === null || known.answer === 'awaited') {
@@ -18,7 +18,7 @@ export function planeInUse({ leftRight, meshes }: Pick<State, 'leftRight' | 'mes
   return known.choice !== 'found' || known.answer.fits ? known.answer.plane : null;
 }
 
-/** A plane of a side is asked for or known. */
+/** The state after a plane of a side was asked for or found. */
 export function withPlane(state: State, side: Side, plane: MeshPlane): State {
   if (state.meshes[side] !== plane.of) {
     return state;
@@ -35,7 +35,7 @@ export function twinOf({ leftRight, pairs }: Pick<State, 'leftRight' | 'pairs'>,
   return leftRight.twins.map(present).find((pair) => pair !== null) ?? null;
 }
 
-/** Two pairs are each other's mirror image from now on, where neither has another one. */
+/** The state in which two pairs are each other's mirror image; unchanged where one of them has another one. */
 export function withTwins(state: State, a: number, b: number): State {
   const isFree = a !== b && twinOf(state, a) === null && twinOf(state, b) === null;
   return isFree ? { ...state, leftRight: { ...state.leftRight, twins: [...state.leftRight.twins, [a, b]] } } : state;

@@ -2,9 +2,9 @@
 
 /** A mesh that a map was made with. */
 export interface WantedMesh {
-  /** What the map's landmarks call it; `null` where they do not. */
+  /** The mesh's name in the map's landmark file; `null` where it has none. */
   readonly name: string | null;
-  /** The core's hash of the mesh as it was checked. */
+  /** The core's hash of the checked mesh. */
   readonly checked: string;
 }
 

@@ -1,27 +1,27 @@
-/** Failures that nobody foresaw: faults of the program or of the machine, and not of what the user gave. Each comes with a report to copy. */
+/** Breakdowns: failures of the program or the machine, not of what the user gave. Each comes with a report to copy. */
 import type { Failure } from '../compute/messages.ts';
 import type { Job } from './job.ts';
 import type { Work } from './work.ts';
 
-/** One of them, with what the page did. */
+/** A breakdown, with what the page did then. */
 export interface Breakdown {
-  /** What the page says of it. */
+  /** The sentence that the page shows about it. */
   readonly sentence: string;
   readonly failure: Failure;
-  /** The stage of the run and its share in percent; empty where there was no run. */
+  /** The stage of the run and its share in percent; empty where no run went on. */
   readonly during: string;
 }
 
-/** Where the page is. */
+/** Where the page runs. */
 export interface Surroundings {
-  /** Its address; what comes behind `#` or `?` is the user's own. */
+  /** The page's address; what follows a `#` or `?` in it belongs to the user and is not reported. */
   readonly address: string;
   readonly browser: string;
 }
 
 const UNFORESEEN: ReadonlySet<string> = new Set(['trap', 'unknown', 'worker']);
 
-/** The breakdown that a failure is, by what the page did until then; `null` where it is none. */
+/** A failure as a breakdown, with what the page did until then; `null` where the failure is not a breakdown. */
 export function breakdownOf(job: Job, sentence: string, failure: Failure | undefined): Breakdown | null {
   if (failure === undefined || !UNFORESEEN.has(failure.code)) {
     return null;
@@ -30,18 +30,18 @@ export function breakdownOf(job: Job, sentence: string, failure: Failure | undef
   return { sentence, failure, during: progress === null ? '' : `${progress.sentence}, ${Math.round(100 * progress.share)} %` };
 }
 
-/** What the page says of failures. */
+/** The last breakdown, and the sentence on the page. */
 interface Told {
   readonly breakdown: Breakdown | null;
   readonly error: string | null;
 }
 
-/** The breakdown that the sentence on the page tells of; `null` where it tells of none. */
+/** The breakdown that the sentence on the page is about; `null` where it is about none. */
 export function toldBreakdown({ breakdown, error }: Told): Breakdown | null {
   return breakdown !== null && breakdown.sentence === error ? breakdown : null;
 }
 
-/** The report: sizes and options, but no names, no places and nothing of the files. */
+/** The report: it has sizes and options, but no names, no positions and nothing of the files. */
 export function breakdownReport({ meshes, pairs, options }: Work, { failure, during }: Breakdown, { address, browser }: Surroundings): string {
   const [source, target] = meshes.map((file) => (file === null ? 'none' : `${file.vertexCount} vertices, ${file.faceCount} triangles`));
   const lines: readonly (readonly [string, string])[] = [

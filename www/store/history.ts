@@ -1,37 +1,37 @@
-/** The steps of the work, to go back and forth in. */
+/** The history: the steps of the work, which can be undone and redone. */
 import type { MeshFile, Work } from './work.ts';
 
-/** A step by name, with the work on its other side: before it where it is past, after it where it was taken back. */
+/** A step with its name, and the work on its other side: the work before it where it is past, the work after it where it was undone. */
 export interface Step {
-  /** As a command: "Place pair 7". */
+  /** The name as a command, such as "Place pair 7". */
   readonly name: string;
   readonly work: Work;
 }
 
 export interface History {
-  /** The latest last. */
+  /** The past steps, the latest last. */
   readonly past: readonly Step[];
-  /** Steps taken back, the one to make next last. */
+  /** The steps that were undone; the one to redo next is last. */
   readonly future: readonly Step[];
-  /** The drag that made the last step, which its next moves belong to. */
+  /** The number of the drag that made the last step; further moves of that drag belong to the step. `null` where no drag made it. */
   readonly gesture: number | null;
 }
 
 export const NO_HISTORY: History = { past: [], future: [], gesture: null };
 
-/** More steps than anybody takes back; it bounds the memory of a page that stays open for days. */
+/** The most steps, more than anybody undoes; it limits the memory of a page that stays open for days. */
 const MAX_STEPS = 200;
-/** What the meshes of the past may take, in bytes: with those of the page and a run, less than the core's 4 GiB. */
+/** The most memory of the meshes of the past, in bytes: together with those of the page and a run it stays below the core's 4 GiB. */
 const MAX_BYTES = 1e9;
-/** The core's memory for a triangle of a checked mesh, in bytes: connectivity, places, and the numbers of its file. */
+/** The core's memory for a triangle of a checked mesh, in bytes: connectivity, positions, and the numbers of its file. */
 const BYTES_PER_FACE = 150;
 
-/** What a mesh takes, in bytes. */
+/** The memory of a mesh, in bytes. */
 function sizeOf(file: MeshFile): number {
   return file.bytes.byteLength + BYTES_PER_FACE * file.faceCount;
 }
 
-/** The past without its oldest steps where it is too long or its meshes, beside those of the present, are too large. */
+/** The past without its oldest steps, where it is too long or its meshes, beside the present ones, are too large. */
 function bounded(past: readonly Step[], present: Work): readonly Step[] {
   const held = new Set<MeshFile | null>([null, ...present.meshes]);
   let bytes = 0;
@@ -51,7 +51,7 @@ function bounded(past: readonly Step[], present: Work): readonly Step[] {
   return first === 0 ? past : past.slice(first);
 }
 
-/** The history after a step away from `before`; the moves of one drag are one step. */
+/** The history after a step from `step.work` to the present work; the moves of one drag are one step. */
 export function recorded(history: History, step: Step, present: Work, gesture: number | null): History {
   if (gesture !== null && gesture === history.gesture) {
     return history;
@@ -59,7 +59,7 @@ export function recorded(history: History, step: Step, present: Work, gesture: n
   return { past: bounded([...history.past, step], present), future: [], gesture };
 }
 
-/** One step back: the work before it and what is then the history; `null` at the first. */
+/** Undoes a step: the work before it and the history then; `null` where nothing can be undone. */
 export function undone(history: History, present: Work): { readonly work: Work; readonly history: History } | null {
   const step = history.past.at(-1);
   return step === undefined
@@ -74,7 +74,7 @@ export function undone(history: History, present: Work): { readonly work: Work; 
       };
 }
 
-/** One step that was taken back made again: the work after it and what is then the history; `null` at the last. */
+/** Redoes a step: the work after it and the history then; `null` where nothing can be redone. */
 export function redone(history: History, present: Work): { readonly work: Work; readonly history: History } | null {
   const step = history.future.at(-1);
   return step === undefined

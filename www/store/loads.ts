@@ -1,4 +1,4 @@
-/** Changes by files: a mesh of one side, its mirror image, an exchange of both, a landmark file. */
+/** Changes that files make: a mesh of one side, its mirror image, an exchange of both, a landmark file. */
 import type { LandmarkFile, Pair, Side, SurfacePoint } from '../landmarks.ts';
 import { baseName } from './landmark-file.ts';
 import { withNewPairs } from './pairs.ts';
@@ -6,12 +6,12 @@ import type { State } from './state.ts';
 import type { MeshFile } from './work.ts';
 import { upOf } from './work.ts';
 
-/** One of two replaced. */
+/** Both values, with the one of a side replaced. */
 function withSide<T>(both: readonly [T, T], side: Side, one: T): readonly [T, T] {
   return side === 0 ? [one, both[1]] : [both[0], one];
 }
 
-/** The pairs without their points on one side; those that have no other go. */
+/** The pairs without their points on one side; pairs without a point on the other side are removed. */
 function halves(pairs: readonly Pair[], lost: Side): Pair[] {
   return pairs
     .map((pair): Pair => ({ ...pair, points: withSide(pair.points, lost, null) }))
@@ -19,8 +19,8 @@ function halves(pairs: readonly Pair[], lost: Side): Pair[] {
 }
 
 /**
- * A mesh in its place. Landmarks stay where the side was empty, and for the mesh that their file names; else the points of the
- * other side stay and wait for new partners, unless they are a demo's.
+ * The state with a mesh on a side. The landmarks stay where the side was empty, and where their file names this mesh; otherwise the points
+ * on the other side stay and wait for new partners, unless they belong to a demo.
  */
 export function withMesh(state: State, side: Side, file: MeshFile): State {
   const keeps = state.meshes[side] === null || state.named[side] === file.name;
@@ -36,7 +36,7 @@ export function withMesh(state: State, side: Side, file: MeshFile): State {
   };
 }
 
-/** The target's mirror image in its place; the pairs stay, with their points on it. */
+/** The state with the target's mirror image as the target; the pairs stay, with their points on it. */
 export function withMirrored(state: State, file: MeshFile, points: readonly (SurfacePoint | null)[]): State {
   return {
     ...state,
@@ -48,7 +48,7 @@ export function withMirrored(state: State, file: MeshFile, points: readonly (Sur
   };
 }
 
-/** Source and target exchanged, with all that belongs to them. */
+/** The state with source and target exchanged, with everything that belongs to them. */
 export function withSwap(state: State): State {
   const swapped = <T>([source, target]: readonly [T, T]): readonly [T, T] => [target, source];
   if (state.meshes.every((file) => file === null) && state.pairs.length === 0) {
@@ -64,7 +64,7 @@ export function withSwap(state: State): State {
   };
 }
 
-/** The pairs of a file in place of the present ones. */
+/** The state with the pairs of a file in place of the present ones. */
 export function withLandmarks(state: State, file: LandmarkFile): State {
   const made = file.pairs.map((points, index) => {
     const radius = file.radii?.[index] ?? 0;

@@ -1,4 +1,4 @@
-/** Points that come in pairs of left and right: what happens to a point happens to the one across from it. */
+/** Changes of points that come in pairs of left and right: what is done to a point is done to its mirror image. */
 import type { Pair, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import { isSamePoint, rounded } from '../landmarks.ts';
 import { farPartner } from '../messages.ts';
@@ -23,15 +23,18 @@ import { otherName } from './side-names.ts';
 import type { State } from './state.ts';
 import { asked, missingSide } from './waiting.ts';
 
-/** A mirror image farther than this off the surface is told, in units of the mesh's size: about as far as one sees. */
+/**
+ * The distance of a mirror image from the surface, in units of the mesh's size, from which on the page mentions it: about as far as the eye
+ * can see.
+ */
 const FAR = 0.01;
 
-/** The state with a sentence where a partner is not quite where the mirror has it. */
+/** The state with a sentence, where the mirror image was far off the surface. */
 function telling(state: State, side: Side, { distance }: Across): State {
   return distance <= FAR ? state : { ...state, toast: { sentence: farPartner(side, distance), undo: true } };
 }
 
-/** A pair was begun; the one across from it is begun, too, or is the one that stands there. */
+/** After a pair was begun, begins the pair of its mirror image, or links it with the pair that is already there. */
 function withPartnerBegun(state: State, begun: Pair, side: Side, across: Across): State {
   if (across.point === null) {
     return state;
@@ -46,7 +49,10 @@ function withPartnerBegun(state: State, begun: Pair, side: Side, across: Across)
   return telling(withTwins(both, begun.id, partner), side, across);
 }
 
-/** The point of a pair's partner is put across; it stays where it is locked, where no place is, and where another pair has it. */
+/**
+ * Places the point of a pair's twin across the plane; it stays where the twin is locked, where there is no place, and where another pair
+ * has the place.
+ */
 function withPartnerPlaced(state: State, twin: Pair, side: Side, across: Across): State {
   const point = across.point === null ? null : rounded(across.point);
   if (point === null || twin.locked || isSamePoint(twin.points[side], point) || holder(state, side, point, twin.id) !== null) {
@@ -55,12 +61,12 @@ function withPartnerPlaced(state: State, twin: Pair, side: Side, across: Across)
   return { ...state, pairs: replaced(state.pairs, { ...twin, points: withPoint(twin.points, side, point) }) };
 }
 
-/** The pair that a point made or changed; `null` where it was refused. */
+/** The pair that a point has made or changed; `null` where the point was refused. */
 function touched(before: State, after: State): Pair | null {
   return after.pairs.find((pair) => !before.pairs.includes(pair)) ?? null;
 }
 
-/** What a point did to a pair is done to the one across from it. */
+/** Does to the twin of a pair what a point has done to the pair. */
 function withPartnerOf(before: State, after: State, side: Side, across: Across): State {
   const pair = touched(before, after);
   if (pair === null) {
@@ -78,13 +84,13 @@ function withPartnerOf(before: State, after: State, side: Side, across: Across):
   return both === after ? after : telling(selecting(both, next?.id ?? pair.id), side, across);
 }
 
-/** The suggestion that looks alike, where a point is a suggestion itself. */
+/** The suggestion that looks like the one at a point; `null` where the point is not suggested or no other looks like it. */
 function likeSuggested({ suggestions }: State, side: Side, point: SurfacePoint): Suggestion | null {
   const letter = suggestions[side].find((suggestion) => suggestion.point === point)?.partner ?? null;
   return suggestions[side].find((suggestion) => suggestion.letter === letter) ?? null;
 }
 
-/** A point of one side is picked, and the one across from it; what was suggested there is taken with it. */
+/** Picks a point of one side and its mirror image. A suggestion at the mirror image is taken with it. */
 export function withMirroredPick(state: State, side: Side, point: SurfacePoint, across: Across | null): State {
   const after = withPick(state, side, point);
   if (across === null || after.pairs === state.pairs) {
@@ -96,7 +102,9 @@ export function withMirroredPick(state: State, side: Side, point: SurfacePoint, 
   return like === null || both.pairs === after.pairs ? both : { ...both, suggestions: withSuggestions(both, side, left) };
 }
 
-/** All suggestions of a side as half pairs; those that look alike are each other's mirror image where left and right go together. */
+/**
+ * Takes all suggestions of a side as half pairs. Where left and right go together, those that look alike become each other's mirror image.
+ */
 export function withAllMirrored(state: State, side: Side): State {
   const after = withAllTaken(state, side);
   if (planeInUse(state, side) === null) {
@@ -107,23 +115,23 @@ export function withAllMirrored(state: State, side: Side): State {
   return alike.reduce((present, [a, b]) => (a === null || b === null ? present : withTwins(present, a, b)), after);
 }
 
-/** The half pair whose turn it is gets the place that the map proposes, and its partner the one across from that. */
+/** Completes the half pair whose turn it is with the place that the map proposes, and its twin with the mirror image of that place. */
 export function withMirroredProposal(state: State, across: Across | null): State {
   const side = state.proposal?.side;
   const after = withProposalAccepted(state);
   return across === null || side === undefined ? after : withPartnerOf(state, after, side, across);
 }
 
-/** A point of a pair is elsewhere, and its partner goes along. */
+/** Moves a point of a pair, and its twin with it. */
 export function withMirroredMove(state: State, id: number, side: Side, point: SurfacePoint, across: Across | null): State {
   const after = withPointMoved(state, id, side, point);
   const twin = after.pairs === state.pairs || across === null ? null : twinOf(after, id);
-  // A partner whose own half was placed by nobody is placed when its pair is.
+  // The twin moves along if it has a point on this side, or if the pair's point on this side has just been placed.
   const goesAlong = twin !== null && (twin.points[side] !== null || pairOf(state, id)?.points[side] === null);
   return goesAlong && across !== null ? withPartnerPlaced(after, twin, side, across) : after;
 }
 
-/** The half pair whose turn it is given up, and with it its partner where that is half as well. */
+/** Gives up the half pair whose turn it is, and its twin where that is half as well. */
 export function withMirroredDrop(state: State): State {
   const turn = asked(state);
   const twin = turn === null || !state.leftRight.isOn ? null : twinOf(state, turn.pair.id);
@@ -132,7 +140,7 @@ export function withMirroredDrop(state: State): State {
   return withPickDropped(alone);
 }
 
-/** A pair with another label; its partner's follows where it tells left from right and nobody chose another one. */
+/** Changes the label of a pair. The label of its twin follows where the label names a side and the user has not chosen another one. */
 export function withMirroredLabel(state: State, id: number, label: string): State {
   const before = pairOf(state, id)?.label ?? '';
   const after = withLabel(state, id, label);

@@ -1,4 +1,4 @@
-/** A map that comes from a file, as if it had been made here just now. */
+/** Takes a map from a file as if it had just been made on the page. */
 import type { RunOutput } from '../compute/messages.ts';
 import type { LandmarkFile, Pair } from '../landmarks.ts';
 import { isSamePoint, isWhole } from '../landmarks.ts';
@@ -11,12 +11,12 @@ import { workOf } from './work.ts';
 
 /** A map file that was read and checked. */
 export interface OpenedMap {
-  /** The file's. */
+  /** The name of the file. */
   readonly name: string;
   readonly isMirrored: boolean;
   readonly output: RunOutput;
   readonly report: Report;
-  /** What it was made from; `options` is `null` where the file does not tell. */
+  /** The landmarks and options that the map was made from; `options` is `null` where the file does not have them. */
   readonly landmarks: LandmarkFile;
   readonly options: RunOptions | null;
 }
@@ -27,7 +27,7 @@ function arePoints(pair: Pair, [source, target]: Points): boolean {
   return isSamePoint(pair.points[0], source) && isSamePoint(pair.points[1], target);
 }
 
-/** Whether the whole pairs of a work are those of a file, in its order. */
+/** Whether the pairs of a work that have both points are those of a file, in the same order. */
 export function hasPairs({ pairs }: Pick<Work, 'pairs'>, file: LandmarkFile): boolean {
   const whole = pairs.filter(isWhole);
   return (
@@ -39,7 +39,7 @@ export function hasPairs({ pairs }: Pick<Work, 'pairs'>, file: LandmarkFile): bo
   );
 }
 
-/** The pairs that a map was made from: those of the page where it has them, the others with ids from `nextId` on. */
+/** The pairs that a map was made from: those of the page where the page has them, others with ids from `nextId` on. */
 function pairsOf(state: State, { pairs, labels }: LandmarkFile): readonly Pair[] {
   return pairs.map((points, index) => {
     const present = state.pairs.find((pair) => arePoints(pair, points));
@@ -47,7 +47,7 @@ function pairsOf(state: State, { pairs, labels }: LandmarkFile): readonly Pair[]
   });
 }
 
-/** The state with what a map file brings as its result; `result` is told apart so that it is shown as one of a run is. */
+/** The state with the content of a map file; `result` is returned separately, so that it can be shown like the result of a run. */
 export function withOpened(state: State, map: OpenedMap): { readonly state: State; readonly result: Result } {
   const { name, isMirrored, output, report, landmarks, options } = map;
   const inputs = { ...workOf(state), pairs: pairsOf(state, landmarks), options: options ?? state.options };

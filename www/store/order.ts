@@ -1,6 +1,6 @@
 /**
- * The only place that translates between the pairs of the page, which go by id and number, and those of a landmark file, a run
- * and its report, which go by order: the whole pairs alone, as the list has them.
+ * The only place that translates between the pairs of the page, which are identified by id and number, and those of a landmark file, a run
+ * and its report, which are identified by their order among the pairs that have both points.
  */
 import type { WholePair } from '../landmarks.ts';
 import { isWhole } from '../landmarks.ts';
@@ -14,7 +14,7 @@ export function wholePairs(work: Pick<Work, 'pairs'>): readonly WholePair[] {
   return work.pairs.filter(isWhole);
 }
 
-/** The findings of a run in the page's words. */
+/** The findings of a run as doubts about pairs of the page. */
 export function doubtsOf(findings: readonly Finding[], inputs: Work): readonly Doubt[] {
   const whole = wholePairs(inputs);
   const name = (order: number): string => {

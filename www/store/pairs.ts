@@ -1,4 +1,4 @@
-/** Changes of the landmark pairs. A change that is refused says why and leaves them as they are. */
+/** Changes of the landmark pairs. A change that is refused shows the reason and leaves the pairs as they are. */
 import type { Pair, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
 import { isSamePoint, otherSide, rounded } from '../landmarks.ts';
 import { pairLocked, pointTaken, SENTENCES } from '../messages.ts';
@@ -6,12 +6,12 @@ import { proposed } from './proposal.ts';
 import type { State } from './state.ts';
 import { asked, waitingFor } from './waiting.ts';
 
-/** Points by side, one of them exchanged. */
+/** The points of a pair, with the one of a side replaced. */
 export function withPoint(points: Pair['points'], side: Side, point: SurfacePoint | null): Pair['points'] {
   return side === 0 ? [point, points[1]] : [points[0], point];
 }
 
-/** A pair in place of the one with its id. */
+/** The pairs, with the one that has this pair's id replaced by it. */
 export function replaced(pairs: readonly Pair[], pair: Pair): readonly Pair[] {
   return pairs.map((other) => (other.id === pair.id ? pair : other));
 }
@@ -24,24 +24,24 @@ export function selecting(state: State, selected: number | null): State {
   return state.ui.selected === selected ? state : { ...state, ui: { ...state.ui, selected } };
 }
 
-/** The suggestions of one side replaced. */
+/** The suggestions of both sides, with those of one side replaced. */
 export function withSuggestions(state: State, side: Side, suggestions: readonly Suggestion[]): State['suggestions'] {
   return side === 0 ? [suggestions, state.suggestions[1]] : [state.suggestions[0], suggestions];
 }
 
-/** Pairs made of points, with the next ids and numbers. */
+/** Adds pairs of these points, with the next ids and numbers. */
 export function withNewPairs(state: State, made: readonly Pick<Pair, 'points' | 'label' | 'radius'>[]): State {
   const highest = state.pairs.reduce((most, { number }) => Math.max(most, number), 0);
   const pairs = made.map((pair, index) => ({ ...pair, id: state.nextId + index, number: highest + 1 + index, locked: false }));
   return { ...state, pairs: [...state.pairs, ...pairs], nextId: state.nextId + made.length };
 }
 
-/** The pair that holds a point of a side, other than `except`. */
+/** The pair that has this point on a side, other than the pair `except`; `null` for none. */
 export function holder(state: State, side: Side, point: SurfacePoint, except: number | null): Pair | null {
   return state.pairs.find(({ id, points }) => id !== except && isSamePoint(points[side], point)) ?? null;
 }
 
-/** A point of one side is picked: half a pair, or the other half of one. */
+/** Picks a point of one side, which begins a pair or completes one. */
 export function withPick(state: State, side: Side, picked: SurfacePoint): State {
   const point = rounded(picked);
   const other = holder(state, side, point, null);
@@ -54,7 +54,7 @@ export function withPick(state: State, side: Side, picked: SurfacePoint): State 
   const present = { ...state, suggestions, error: null };
   const half = waitingFor(state, side);
   if (half === null) {
-    // Earlier halves have their turn first.
+    // Half pairs that were begun earlier are completed first.
     const turn = asked(state);
     const begun = withNewPairs(present, [{ points: withPoint([null, null], side, point), label: '' }]);
     return selecting(begun, turn?.side === otherSide(side) ? turn.pair.id : state.nextId);
@@ -62,14 +62,14 @@ export function withPick(state: State, side: Side, picked: SurfacePoint): State 
   return withCompleted(present, half, side, point);
 }
 
-/** A half pair made whole; the next one that lacks a point of this side has its turn. */
+/** Completes a half pair; the next pair that lacks a point on this side gets its turn. */
 function withCompleted(state: State, half: Pair, side: Side, point: SurfacePoint): State {
   const pairs = replaced(state.pairs, { ...half, points: withPoint(half.points, side, point) });
   const next = pairs.find(({ points }) => points[side] === null);
   return selecting({ ...state, pairs }, next?.id ?? half.id);
 }
 
-/** The half pair whose turn it is gets the place that the map proposes. */
+/** Completes the half pair whose turn it is with the place that the map proposes. */
 export function withProposalAccepted(state: State): State {
   const proposal = proposed(state);
   const half = proposal === null ? null : pairOf(state, proposal.id);
@@ -84,7 +84,7 @@ export function withProposalAccepted(state: State): State {
     : { ...state, error: pointTaken(side, other.number) };
 }
 
-/** A point of a pair is elsewhere on its surface. */
+/** Moves a point of a pair on its surface. */
 export function withPointMoved(state: State, id: number, side: Side, moved: SurfacePoint): State {
   const pair = pairOf(state, id);
   const point = rounded(moved);
@@ -102,7 +102,7 @@ export function withPointMoved(state: State, id: number, side: Side, moved: Surf
   return selecting({ ...state, pairs, error: null }, id);
 }
 
-/** The half pair whose turn it is given up; the next one has its turn. */
+/** Gives up the half pair whose turn it is; the next one gets its turn. */
 export function withPickDropped(state: State): State {
   const turn = asked(state);
   if (turn === null) {
@@ -113,7 +113,7 @@ export function withPickDropped(state: State): State {
   return selecting({ ...state, pairs }, next?.id ?? null);
 }
 
-/** All suggestions of a side as half pairs, the first one to be completed now. */
+/** Takes all suggestions of a side as half pairs; the first one is to be completed now. */
 export function withAllTaken(state: State, side: Side): State {
   const free = state.suggestions[side].filter(({ point }) => holder(state, side, point, null) === null);
   const halves = free.map(({ point }) => ({ points: withPoint([null, null], side, point), label: '' }));
@@ -122,7 +122,7 @@ export function withAllTaken(state: State, side: Side): State {
   return turn === null ? taken : selecting(taken, turn.id);
 }
 
-/** Two pairs with each other's target. */
+/** Exchanges the targets of two pairs. */
 export function withTargetsExchanged(state: State, ids: readonly number[]): State {
   const [a, b] = ids.map((id) => pairOf(state, id));
   if (a === undefined || b === undefined || a === null || b === null || a === b) {
@@ -136,7 +136,7 @@ export function withTargetsExchanged(state: State, ids: readonly number[]): Stat
   return { ...state, pairs: replaced(replaced(state.pairs, given(a, b)), given(b, a)) };
 }
 
-/** One pair less; the next one in the list is selected in place of it. */
+/** Deletes a pair; the next one in the list is selected instead. */
 export function withPairDeleted(state: State, id: number): State {
   const index = state.pairs.findIndex((pair) => pair.id === id);
   const pair = state.pairs[index];
@@ -151,7 +151,7 @@ export function withPairDeleted(state: State, id: number): State {
   return selecting({ ...state, pairs }, selected);
 }
 
-/** No pairs but the locked ones. */
+/** Deletes all pairs but the locked ones. */
 export function withPairsCleared(state: State): State {
   const pairs = state.pairs.filter(({ locked }) => locked);
   if (pairs.length === state.pairs.length) {
@@ -160,19 +160,19 @@ export function withPairsCleared(state: State): State {
   return { ...state, pairs };
 }
 
-/** A pair with another label. */
+/** Changes the label of a pair. */
 export function withLabel(state: State, id: number, label: string): State {
   const pair = pairOf(state, id);
   return pair === null || pair.label === label ? state : { ...state, pairs: replaced(state.pairs, { ...pair, label }) };
 }
 
-/** A pair locked or free. */
+/** Locks or unlocks a pair. */
 export function withLock(state: State, id: number, locked: boolean): State {
   const pair = pairOf(state, id);
   return pair === null || pair.locked === locked ? state : { ...state, pairs: replaced(state.pairs, { ...pair, locked }) };
 }
 
-/** A pair at another place of the list. */
+/** Moves a pair to another index of the list. */
 export function withPairAt(state: State, id: number, to: number): State {
   const pair = pairOf(state, id);
   if (pair === null || !Number.isInteger(to)) {

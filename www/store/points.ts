@@ -1,8 +1,8 @@
-/** Which points the views mark. */
+/** The points that the views mark. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import type { State } from './state.ts';
 
-/** Points of one side by their pair's number less 1, so that number and colour belong together; `null` where there is none. */
+/** The points of one side at the index of their pair's number less 1, so that number and colour agree; `null` where there is none. */
 export function pointsOf({ pairs }: Pick<State, 'pairs'>, side: Side): (SurfacePoint | null)[] {
   const most = pairs.reduce((highest, { number }) => Math.max(highest, number), 0);
   const points = Array.from<SurfacePoint | null>({ length: most }).fill(null);

@@ -1,4 +1,4 @@
-/** What the map proposes for the half pair whose turn it is: the image of its point on the other mesh. */
+/** The place that the map proposes for the half pair whose turn it is: the image of its point on the other mesh. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import { isSamePoint, otherSide } from '../landmarks.ts';
 import { shownResult } from './staleness.ts';
@@ -7,18 +7,18 @@ import { asked } from './waiting.ts';
 
 type Asking = Pick<State, 'pairs' | 'ui' | 'result' | 'meshes' | 'proposal'>;
 
-/** What the map is asked: where it takes this point of a half pair. */
+/** The question to the map: where does it take this point of a half pair? */
 export interface Question {
-  /** The pair's id. */
+  /** The id of the pair. */
   readonly id: number;
   readonly point: SurfacePoint;
-  /** The side on which the image is. */
+  /** The side of the image. */
   readonly side: Side;
   /** The map that is asked. */
   readonly result: Result;
 }
 
-/** The question now; `null` where no half pair waits, or there is no map of these meshes. */
+/** The present question; `null` where no half pair waits, or there is no map of these meshes. */
 export function questionOf(state: Asking): Question | null {
   const result = shownResult(state);
   const turn = asked(state);

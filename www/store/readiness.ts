@@ -18,7 +18,7 @@ export function canRun(state: State): boolean {
   );
 }
 
-/** Whether a run would make anything else than what is there: a map that is current and was not finished early stays as it is. */
+/** Whether a run would make another map than the present one: a map that is up to date and was not finished early stays as it is. */
 export function needsRun(state: State): boolean {
   return !isCurrent(state) || state.result?.report.stopped_early === true;
 }

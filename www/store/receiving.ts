@@ -1,7 +1,7 @@
-/** What a link that was opened waits for. */
+/** What an opened link waits for. */
 import type { Side } from '../landmarks.ts';
 
-/** Files of one host. */
+/** Files from one host. */
 export interface HostFiles {
   readonly host: string;
   readonly names: readonly string[];
@@ -15,9 +15,9 @@ export interface Missing {
 
 export type Receiving =
   | { readonly kind: 'nothing' }
-  /** For a click: these files would be fetched. */
+  /** The user's click, before these files are fetched. */
   | { readonly kind: 'click'; readonly hosts: readonly HostFiles[] }
-  /** For a file on its way; in bytes, `expected` is `null` where the server does not say how many come. */
+  /** A file that is being loaded, in bytes; `expected` is `null` where the server does not state the size. */
   | { readonly kind: 'fetch'; readonly name: string; readonly loaded: number; readonly expected: number | null }
-  /** For files from whoever opened the link. */
+  /** Files that the user must give. */
   | { readonly kind: 'files'; readonly missing: readonly Missing[] };

@@ -1,4 +1,4 @@
-/** What each event makes of the state: `update(state, event)`, without side effects and without a record of the steps. */
+/** The reducer: `update(state, event)` is the state after an event, without side effects and without recording steps. */
 import type { Side } from '../landmarks.ts';
 import { withPlane, withTwins } from './across.ts';
 import type { Event } from './events.ts';
@@ -34,12 +34,12 @@ import { shownResult } from './staleness.ts';
 import type { Axis, MeshFile } from './work.ts';
 import { workOf } from './work.ts';
 
-/** A change of the run under way; without one, none. */
+/** Changes the run that goes on; leaves the state alone where none does. */
 function withRun(state: State, change: (job: Running) => Running): State {
   return state.job.kind === 'running' ? { ...state, job: change(state.job) } : state;
 }
 
-/** An object with other fields; the same one where none is other. */
+/** An object with some fields replaced; the same object where none of them differs. */
 function patched<T extends object>(object: T, patch: Partial<T>): T {
   const isOther = (Object.keys(patch) as (keyof T)[]).some((key) => patch[key] !== object[key]);
   return isOther ? { ...object, ...patch } : object;
@@ -53,17 +53,17 @@ function withStyle(state: State, patch: Partial<Style>): State {
   return withUi(state, { style: patched(state.ui.style, patch) });
 }
 
-/** Without the refused mesh of a side. */
+/** The state without the refused mesh of a side. */
 function withoutRefused(state: State, side: Side): State {
   return patched(state, { refused: withoutSide(state.refused, side) });
 }
 
-/** Whether an id is a pair's; `null` is none and always good. */
+/** Whether an id belongs to a pair; `null`, which means no pair, is always accepted. */
 function isPair({ pairs }: State, id: number | null): boolean {
   return id === null || pairs.some((pair) => pair.id === id);
 }
 
-/** Another step's work; how its meshes stand stays, where they are the same ones. */
+/** The state with another step's work. A mesh that stays keeps the axis that points up. */
 function withStep(state: State, step: ReturnType<typeof undone>): State {
   if (step === null) {
     return state;
@@ -74,12 +74,12 @@ function withStep(state: State, step: ReturnType<typeof undone>): State {
   return { ...state, ...work, up: stands, history, toast: null, error: null };
 }
 
-/** What went wrong is said. */
+/** The state with an error, which the page shows. */
 function withError(state: State, { sentence, failure }: Extract<Event, { readonly kind: 'error' | 'run-failed' }>): State {
   return { ...state, error: sentence, breakdown: breakdownOf(state.job, sentence, failure) };
 }
 
-/** A map came; what a plain surface cannot show is shown. */
+/** The state with a new map. Where the surfaces are plain, or show what this map does not have, the pattern is chosen. */
 function withResult(state: State, result: Result): State {
   const earlier = state.result === null ? state.earlier : earlierOf(state.result);
   const done = { ...state, result, earlier };
@@ -88,12 +88,12 @@ function withResult(state: State, result: Result): State {
   return isShown ? done : withStyle(done, { surface: 'pattern' });
 }
 
-/** A mesh came; colours of its own are shown where nothing else was chosen. */
+/** The state after a mesh has come: its own colours are shown where no other surface was chosen. */
 function withOwnLook(state: State, { look }: MeshFile): State {
   return look === 'colours' && state.ui.style.surface === 'shaded' ? withStyle(state, { surface: 'look' }) : state;
 }
 
-/** A proof is over; what came too late for the map that is proved now is left out. */
+/** The state after a proof; an answer about an earlier map is ignored. */
 function withProof(state: State, of: Result, answer: ProofReport | null): State {
   return state.proof?.of === of ? { ...state, proof: answer === null ? null : { of, answer } } : state;
 }

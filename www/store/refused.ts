@@ -1,16 +1,18 @@
-/** Meshes that were refused: they are shown with what is wrong, and wait for a repair that would help, or to be left out. */
+/** Refused meshes: they are shown with what is wrong with them, until the user has them repaired or leaves them out. */
 import type { Side } from '../landmarks.ts';
 import type { RepairOffer } from '../report.ts';
 import type { RepairOptions } from '../wasm/core.js';
 import type { LandmarkContent } from '../wasm/page.js';
 import type { Examined } from './defects.ts';
 
-/** What a repair may do beyond what does not change the shape, as the core reads it; what is left out it may not. */
+/**
+ * The repairs that are allowed beyond those that do not change the shape, as the core reads them; a repair that is left out is not allowed.
+ */
 export type Allowed = Readonly<Pick<RepairOptions, 'parts' | 'handles'>>;
 
 /**
- * All of it. A mesh that came onto a page with less comes out alike, so that what was accepted once is read again by this: from
- * the browser's store, of a project, in the worker.
+ * All repairs. A mesh that came onto a page with fewer allowed comes out the same, so all meshes that were accepted once are read again
+ * with these: from the browser's store, from a project, and in the worker.
  */
 export const ALL_ALLOWED: Allowed = { parts: 'largest-alone', handles: 'cut' };
 
@@ -23,34 +25,34 @@ export interface GivenFile {
 
 /** A landmark file as it was given. */
 export interface GivenMarks extends GivenFile {
-  /** Landmarks of one mesh, of both, or pairs in the meshes' own numbers. */
+  /** Whether the file has landmarks of one mesh, of both, or pairs by the meshes' own numbers. */
   readonly content: LandmarkContent;
 }
 
 /** A mesh that was refused. */
 export interface RefusedMesh {
-  /** Where it was to come. */
+  /** The side for which it was given. */
   readonly side: Side;
   readonly file: GivenFile;
-  /** What its repair may do already. */
+  /** The repairs that are allowed already. */
   readonly allowed: Allowed;
-  /** What would help beyond; `null` where nothing would. */
+  /** The further repair that would help; `null` where none would. */
   readonly offer: RepairOffer | null;
-  /** Why it was refused. */
+  /** The sentence that says why it was refused. */
   readonly sentence: string;
-  /** What is wrong with it, for the view and the list. */
+  /** The defects, for the view and the list. */
   readonly examined: Examined;
 }
 
-/** What waits for the user's word. */
+/** Refused meshes that wait for the user's decision. */
 export interface Refused {
-  /** At least one, each for another side. */
+  /** At least one mesh, and at most one for each side. */
   readonly meshes: readonly RefusedMesh[];
-  /** Landmark files that were given with them. */
+  /** The landmark files that were given with them. */
   readonly landmarks: readonly GivenMarks[];
 }
 
-/** The options that an offer allows beside those that there are. */
+/** The repairs that are allowed once an offer is accepted. */
 export function allowedBy({ allowed, offer }: Pick<RefusedMesh, 'allowed' | 'offer'>): Allowed {
   if (offer === null) {
     return allowed;
@@ -58,7 +60,7 @@ export function allowedBy({ allowed, offer }: Pick<RefusedMesh, 'allowed' | 'off
   return offer.kind === 'cut-handles' ? { ...allowed, handles: 'cut' } : { ...allowed, parts: 'largest-alone' };
 }
 
-/** Without the mesh of a side: something else came there, or nothing is to come. */
+/** The refused meshes without the one of a side, because another mesh came there or none is wanted. */
 export function withoutSide(refused: Refused | null, side: Side): Refused | null {
   const meshes = refused?.meshes.filter((mesh) => mesh.side !== side) ?? [];
   if (refused === null || meshes.length === refused.meshes.length) {

@@ -1,4 +1,4 @@
-/** Kept work that comes back onto the page. */
+/** Brings kept work back onto the page. */
 import type { Pair } from '../landmarks.ts';
 import type { History, Step } from './history.ts';
 import { recorded } from './history.ts';
@@ -6,7 +6,7 @@ import type { State, Ui } from './state.ts';
 import type { Work } from './work.ts';
 import { workName, workOf } from './work.ts';
 
-/** Work with its steps, its pairs' ids raised above those of this page; lists that steps share stay shared. */
+/** The work and its steps, with the ids of the pairs increased above those of this page; lists that steps share stay shared. */
 function raised(work: Work, history: History, by: number): { readonly work: Work; readonly history: History } {
   const known = new Map<readonly Pair[], readonly Pair[]>();
   const above = (before: Work): Work => {
@@ -23,7 +23,7 @@ function highestId(work: Work, { past, future }: History): number {
   return Math.max(0, ...works.map(({ pairs }) => pairs.reduce((most, { id }) => Math.max(most, id), 0)));
 }
 
-/** With its own steps where nothing was done on the page, else as a step, which can be taken back. */
+/** The state with kept work: with its own steps where nothing was done on the page, else as one step that can be undone. */
 export function withRestored(state: State, kept: { readonly work: Work; readonly history: History }, ui: Partial<Ui>): State {
   const { work, history } = raised(kept.work, kept.history, state.nextId - 1);
   const { past, future } = state.history;

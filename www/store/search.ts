@@ -1,4 +1,4 @@
-/** The search for landmarks: how it begins and ends, and the pairs that are taken of what it found. */
+/** The search for landmarks: how it begins and ends, and how the pairs that it has found are taken. */
 import type { AnswerPicture } from '../compute/match-messages.ts';
 import type { Pair, Suggestion, WholePair } from '../landmarks.ts';
 import { isSamePoint, isWhole, SIDES } from '../landmarks.ts';
@@ -15,12 +15,12 @@ export function canSearch({ ready, meshes, job, matching }: State): boolean {
   return ready && meshes.every((file) => file !== null) && job.kind !== 'running' && job.kind !== 'busy' && matching?.kind !== 'searching';
 }
 
-/** A search of what is on the page begins. */
+/** Begins a search for what is on the page. */
 export function withSearch(state: State): State {
   return canSearch(state) ? { ...state, matching: { kind: 'searching', of: state.pairs, share: 0 }, error: null } : state;
 }
 
-/** A search goes on. */
+/** Stores the progress of the search. */
 export function withSearched(state: State, share: number): State {
   return state.matching?.kind === 'searching' ? { ...state, matching: { ...state.matching, share } } : state;
 }
@@ -29,7 +29,7 @@ function arePoints({ points }: Pair, [source, target]: Points): boolean {
   return isSamePoint(points[0], source) && isSamePoint(points[1], target);
 }
 
-/** Whether two candidates have the same pairs; their maps may still be others, which go another way round the body. */
+/** Whether two candidates have the same pairs. Their maps may still go different ways round the body. */
 function haveSamePairs(a: Candidate, b: Candidate): boolean {
   const isSame = ([source, target]: Points, [s, t]: Points): boolean => isSamePoint(source, s) && isSamePoint(target, t);
   return a.pairs.length === b.pairs.length && a.pairs.every((pair) => b.pairs.some((other) => isSame(pair, other)));
@@ -40,7 +40,10 @@ function hasOne({ points }: Pair, found: Points): boolean {
   return SIDES.some((side) => isSamePoint(points[side], found[side]));
 }
 
-/** The pair on the page that becomes a found one: the same, a half one with one of its points, or one of the same place of the source. */
+/**
+ * The pair on the page that becomes a found one: a pair with the same points, else a half pair with one of them, else an unlocked pair with
+ * the same place on the source; `null` for none.
+ */
 function becoming(pairs: readonly Pair[], found: Points): Pair | null {
   const same = pairs.find((pair) => arePoints(pair, found));
   if (same !== undefined) {
@@ -51,7 +54,7 @@ function becoming(pairs: readonly Pair[], found: Points): Pair | null {
   return other === undefined ? null : { ...other, points: found };
 }
 
-/** The pairs of a candidate in place of the present ones, which keep numbers, labels and locks where they become some of them. */
+/** Replaces the present pairs by those of a candidate. A pair that becomes one of these keeps its number, label and lock. */
 function withCandidate(state: State, { pairs, labels }: Candidate): State {
   const become = pairs.map((points) => becoming(state.pairs, points));
   const kept = become.filter((pair) => pair !== null);
@@ -70,12 +73,12 @@ function withCandidate(state: State, { pairs, labels }: Candidate): State {
   return withNewPairs({ ...state, pairs: present, error: null }, made);
 }
 
-/** Places of the source that are to be marked, as rings with letters; after Z comes A again. */
+/** Places of the source that are marked as rings with letters; after Z the letters begin again at A. */
 function ringsAt(places: readonly number[]): Suggestion[] {
   return places.map((point, index) => ({ point, reason: 'far', letter: String.fromCharCode(65 + (index % 26)), partner: null }));
 }
 
-/** A search is over: the best pairs are taken, or places are shown where there are none. */
+/** Ends a search: takes the best pairs, or marks places where there are none. */
 export function withFound(state: State, report: MatchReport, pictures: readonly AnswerPicture[]): State {
   if (state.matching?.kind !== 'searching') {
     return state;
@@ -86,11 +89,11 @@ export function withFound(state: State, report: MatchReport, pictures: readonly 
     return { ...found, suggestions: withSuggestions(state, 0, ringsAt(report.verdict.places)) };
   }
   const taken = withCandidate(found, best);
-  // What was said meanwhile, of a file that was refused, is not for the search to take back.
+  // An error that was shown during the search, such as about a refused file, stays.
   return { ...taken, error: taken.error ?? state.error };
 }
 
-/** The pairs of a candidate are taken, since the user chose it. */
+/** Takes the pairs of a candidate that the user has chosen. */
 export function withTaken(state: State, number: number): State {
   const { matching } = state;
   const candidate = matching?.kind === 'found' ? matching.report.candidates[number] : undefined;
@@ -102,7 +105,10 @@ export function withTaken(state: State, number: number): State {
   return isRefused || matching.isSettled ? taken : { ...taken, matching: { ...matching, isSettled: true } };
 }
 
-/** The number of the candidate whose pairs are on the page, with whatever others, the one with the most; `null` where none is. */
+/**
+ * The number of the candidate whose pairs are all on the page, among whatever others; of several the one with the most pairs; `null` for
+ * none.
+ */
 export function takenCandidate({ matching, pairs }: Pick<State, 'matching' | 'pairs'>): number | null {
   const candidates = matching?.kind === 'found' ? matching.report.candidates : [];
   const isThere = (candidate: Candidate): boolean => candidate.pairs.every((points) => pairs.some((pair) => arePoints(pair, points)));
@@ -111,7 +117,7 @@ export function takenCandidate({ matching, pairs }: Pick<State, 'matching' | 'pa
   return most === 0 ? null : there.indexOf(most);
 }
 
-/** Whether the pairs on the page are found ones that may be wrong, and nobody has settled that. */
+/** Whether the pairs on the page were found, may be wrong, and the user has not settled that. */
 export function isDoubtful(state: Pick<State, 'matching' | 'pairs'>): boolean {
   const { matching } = state;
   return (
@@ -119,7 +125,7 @@ export function isDoubtful(state: Pick<State, 'matching' | 'pairs'>): boolean {
   );
 }
 
-/** The candidates whose pairs are other ones than those of the candidates before them, with their numbers. */
+/** The candidates whose pairs differ from those of all candidates before them, with their numbers. */
 export function listed({ candidates }: MatchReport): readonly { readonly candidate: Candidate; readonly number: number }[] {
   return candidates
     .map((candidate, number) => ({ candidate, number }))
@@ -127,8 +133,8 @@ export function listed({ candidates }: MatchReport): readonly { readonly candida
 }
 
 /**
- * What an answer to a question does: the pairs of its candidate are taken, and where both have the same ones, the place that was
- * asked about becomes one more.
+ * The events of an answer to a question: the pairs of its candidate are taken; where both candidates have the same pairs, the place that
+ * was asked about becomes a further pair.
  */
 export function answered({ candidates }: MatchReport, { source, targets, rival }: Question, answer: 0 | 1): readonly Event[] {
   const [best, other] = [candidates[0], candidates[rival]];

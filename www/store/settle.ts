@@ -1,4 +1,4 @@
-/** What follows from other work on the page: what spoke of the work before it is brought in line. */
+/** Brings everything that was about the earlier work in line with other work on the page. */
 import { SIDES } from '../landmarks.ts';
 import { heldMeshes } from './history.ts';
 import { settled } from './job.ts';
@@ -8,24 +8,24 @@ import type { State } from './state.ts';
 
 const NONE: State['findings'] = [];
 
-/** The id where it is still a pair's. */
+/** The id where a pair still has it; else `null`. */
 function present(state: State, id: number | null): number | null {
   return state.pairs.some((pair) => pair.id === id) ? id : null;
 }
 
-/** Whether the doubts of the last run are about the landmarks and meshes on the page. */
+/** Whether the findings of the last run are about the landmarks and meshes on the page. */
 function areAbout(state: State): boolean {
   const changes = state.found === null ? null : changesBetween(state.found.inputs, state);
   return changes === null || [changes.meshes, changes.placed, changes.moved, changes.removed].every((list) => list.length === 0);
 }
 
-/** The state with its doubts where they are about it. */
+/** The state with the findings of the last run, where they are about it. */
 export function withFindings(state: State): State {
   const findings = state.found !== null && areAbout(state) ? state.found.doubts : NONE;
   return findings === state.findings || findings.length + state.findings.length === 0 ? state : { ...state, findings };
 }
 
-/** The last map, unless its meshes can come back by no step. */
+/** The last map; `null` where no step leads back to its meshes. */
 function reachableResult(state: State): State['result'] {
   const { result } = state;
   if (result === null || shownResult(state) !== null) {
@@ -35,7 +35,7 @@ function reachableResult(state: State): State['result'] {
   return result.inputs.meshes.every((file) => file === null || held.has(file)) ? result : null;
 }
 
-/** The state in line with its work, which was another one before. */
+/** The state made consistent with its work, which was another one in `before`. */
 export function inLine(state: State, before: State): State {
   const selected = present(state, state.ui.selected);
   const hovered = present(state, state.ui.hovered);
@@ -46,7 +46,7 @@ export function inLine(state: State, before: State): State {
   if (next.meshes === before.meshes) {
     return next;
   }
-  // What is known of a mesh goes with it to the other side.
+  // What is known of a mesh moves with it to the other side.
   const follow = <T>(both: readonly [T, T], none: T): readonly [T, T] => {
     const of = (file: State['meshes'][0]): T => {
       const side = SIDES.find((candidate) => file !== null && before.meshes[candidate] === file);
@@ -55,7 +55,7 @@ export function inLine(state: State, before: State): State {
     return [of(next.meshes[0]), of(next.meshes[1])];
   };
   const isUnknown = before.leftRight.planes.every((plane) => plane === null);
-  // A session that comes back brings its cameras and its style along.
+  // A kept session brings its own cameras and style.
   const { cameras, style } = next.ui;
   return {
     ...next,
@@ -65,7 +65,7 @@ export function inLine(state: State, before: State): State {
     ui: {
       ...next.ui,
       cameras: cameras === before.ui.cameras ? follow(cameras, null) : cameras,
-      // Another map is seen in the shapes of its own meshes first.
+      // A new map is first seen in the own shapes of its meshes.
       style: style === before.ui.style && style.morph > 0 ? { ...style, morph: 0 } : style,
     },
     job: settled(next.job, shownResult(next) !== null),

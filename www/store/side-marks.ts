@@ -1,11 +1,11 @@
-/** The landmarks of one mesh, as a file for that mesh alone holds them, in the place of those on it. */
+/** Replaces the landmarks of one mesh by those of a file for that mesh alone. */
 import type { Pair, Side, SurfacePoint } from '../landmarks.ts';
 import { isSamePoint, otherSide } from '../landmarks.ts';
 import { pairLocked } from '../messages.ts';
 import { withNewPairs } from './pairs.ts';
 import type { State } from './state.ts';
 
-/** A point of one mesh with its name, empty for none. */
+/** A point of one mesh with its label, which is empty for none. */
 export interface SidePoint {
   readonly label: string;
   readonly point: SurfacePoint;
@@ -15,13 +15,16 @@ function pointsOf(side: Side, point: SurfacePoint | null, partner: SurfacePoint 
   return side === 0 ? [point, partner] : [partner, point];
 }
 
-/** The place of each label; `null` where one is empty or there twice. */
+/** The index of each label; `null` where a label is empty or occurs twice. */
 function byLabel(labels: readonly string[]): ReadonlyMap<string, number> | null {
   const places = new Map(labels.map((label, index) => [label, index]));
   return places.size === labels.length && !places.has('') ? places : null;
 }
 
-/** Which point belongs to which of the waiting pairs: by equal labels, else by order; `null` where there are more of one. */
+/**
+ * The points for the waiting pairs, in the pairs' order: matched by equal labels, else by order; `null` where the numbers of pairs and
+ * points differ.
+ */
 function partners(pairs: readonly Pair[], points: readonly SidePoint[]): readonly SidePoint[] | null {
   if (pairs.length !== points.length) {
     return null;
@@ -37,8 +40,8 @@ function partners(pairs: readonly Pair[], points: readonly SidePoint[]): readonl
 }
 
 /**
- * Points in the place of those on one mesh. They complete the pairs that have a point on the other one, where these are as many;
- * else all are halves that wait.
+ * The state with points in place of those on one mesh. They complete the pairs that have a point on the other mesh, where there are equally
+ * many; otherwise all points are half pairs that wait.
  */
 export function withSideMarks(state: State, side: Side, points: readonly SidePoint[]): State {
   const across = otherSide(side);

@@ -8,12 +8,12 @@ import { pairOf, replaced, withPoint } from './pairs.ts';
 import type { State } from './state.ts';
 import type { Work } from './work.ts';
 
-/** A pair without its radius. */
+/** A pair that is held: one without a radius. */
 function held({ id, number, points, label, locked }: Pair): Pair {
   return { id, number, points, label, locked };
 }
 
-/** A pair made soft, with another radius, or held again (`null`). */
+/** Makes a pair soft, changes its radius, or holds it again (`null`). */
 export function withRadius(state: State, id: number, radius: number | null): State {
   const pair = pairOf(state, id);
   if (pair === null || (pair.radius ?? null) === radius || !(radius === null || (radius > 0 && radius <= MAX_RADIUS))) {
@@ -22,7 +22,7 @@ export function withRadius(state: State, id: number, radius: number | null): Sta
   return { ...state, pairs: replaced(state.pairs, radius === null ? held(pair) : { ...pair, radius }) };
 }
 
-/** By pair of the work that a run was given: the same one where its landmark settled, and held there from now on. */
+/** For each soft pair of a run's work that has settled, the same pair at the point where it settled, held there from now on. */
 function settledPairs(inputs: Work, settled: readonly SettledLandmark[]): ReadonlyMap<Pair, Pair> {
   const whole = wholePairs(inputs);
   return new Map(
@@ -33,7 +33,7 @@ function settledPairs(inputs: Work, settled: readonly SettledLandmark[]): Readon
   );
 }
 
-/** What a run made its map of, and the page with it, after soft landmarks settled; a pair that has changed meanwhile stays as it is. */
+/** The run's inputs and the page after soft landmarks have settled; a pair on the page that has changed since stays as it is. */
 export function withSettled(state: State, inputs: Work, settled: readonly SettledLandmark[]): { readonly state: State; readonly inputs: Work } {
   if (settled.length === 0) {
     return { state, inputs };

@@ -6,17 +6,20 @@ import { wholePairs } from './order.ts';
 import type { Result, State } from './state.ts';
 import type { Work } from './work.ts';
 
-/** What differs from the inputs of a map. Labels, locks, the order of the pairs and half pairs make no other map. */
+/**
+ * The differences from the inputs of a map. Labels, locks, the order of the pairs and half pairs do not count, since they do not change the
+ * map.
+ */
 export interface Changes {
   /** Sides with another mesh. */
   readonly meshes: readonly Side[];
-  /** Numbers of pairs that came. */
+  /** Numbers of the pairs that were added. */
   readonly placed: readonly number[];
-  /** Numbers of pairs that moved. */
+  /** Numbers of the pairs that were moved. */
   readonly moved: readonly number[];
-  /** Numbers of pairs that became soft, held or have another radius. */
+  /** Numbers of the pairs that were made soft or held, or whose radius has changed. */
   readonly softened: readonly number[];
-  /** Numbers of pairs that went. */
+  /** Numbers of the pairs that were removed. */
   readonly removed: readonly number[];
   readonly options: readonly (keyof RunOptions)[];
 }
@@ -25,7 +28,7 @@ function isMoved(before: Pair, after: Pair): boolean {
   return SIDES.some((side) => !isSamePoint(before.points[side], after.points[side]));
 }
 
-/** What has changed from one work to another; `null` where both give the same map. */
+/** The changes from one work to another; `null` where both give the same map. */
 export function changesBetween(before: Work, after: Work): Changes | null {
   const [old, present] = [wholePairs(before), wholePairs(after)];
   const oldById = new Map(old.map((pair) => [pair.id, pair]));
@@ -49,23 +52,23 @@ export function changesBetween(before: Work, after: Work): Changes | null {
   return Object.values(changes).every((list: readonly unknown[]) => list.length === 0) ? null : changes;
 }
 
-/** What has changed since the last map was made; `null` where it is current or there is none. */
+/** The changes since the last map was made; `null` where it is up to date or there is none. */
 export function staleness(state: State): Changes | null {
   return state.result === null ? null : changesBetween(state.result.inputs, state);
 }
 
-/** Whether there is a map that belongs to what is on the page. */
+/** Whether there is a map that is up to date. */
 export function isCurrent(state: State): boolean {
   return state.result !== null && staleness(state) === null;
 }
 
-/** The last map where it is one of the meshes on the page, current or not: what views can show. */
+/** The last map where it is one of the meshes on the page, up to date or not: the map that views can show. Otherwise `null`. */
 export function shownResult({ result, meshes }: Pick<State, 'result' | 'meshes'>): Result | null {
   const isTheirs = result !== null && SIDES.every((side) => result.inputs.meshes[side] === meshes[side]);
   return isTheirs ? result : null;
 }
 
-/** Whether the pairs of the last map are where they were; more may have come. */
+/** Whether the pairs of the last map are still where they were; others may have been added. */
 export function hasItsCones(state: State): boolean {
   const { result, pairs } = state;
   return (

@@ -20,18 +20,24 @@ import { NO_WORK } from './work.ts';
 
 export type { Axis, Demo, MeshFile, Work } from './work.ts';
 
-/** What can lie on the flat metric, which the map carries. */
+/** The textures that can lie on the flat metric and that the map carries. */
 export const TEXTURES = ['checkerboard', 'circles', 'ribbons', 'coordinates', 'picture'] as const satisfies readonly SurfaceStyle[];
 
-/** Values by place of the map as colours: the distortion, that of angles, the factor of the area, and the distance to the true image. */
+/**
+ * The heat maps of values at places of the map: the distortion, the distortion of angles, the factor of the area, and the distance to the
+ * true image.
+ */
 export const MAP_HEATS = ['distortion', 'angles', 'areas', 'truth'] as const;
 
-/** Values by vertex of either mesh as colours: the conformal factor of the flow, and the Gaussian curvature before it and after. */
+/**
+ * The heat maps of values at the vertices of either mesh: the conformal factor of the flow, and the Gaussian curvature before the flow and
+ * after it.
+ */
 export const FLOW_HEATS = ['factor', 'curvature', 'flat-curvature'] as const;
 
 /**
- * Plain clay; the colours of the mesh's file, which the map carries; a pattern in space, which the map carries to the source; colours of the
- * place on the target: what the views draw but textures, and but the scales of heat maps.
+ * The surfaces that the views draw beside textures and heat maps: plain clay; the colours of the mesh's file, which the map carries; a
+ * pattern in space, which the map carries to the source; and colours by the place on the target.
  */
 export type PlainSurface = Exclude<SurfaceStyle, Texture | 'rising' | 'diverging'>;
 
@@ -42,16 +48,16 @@ export type HeatMap = MapHeat | FlowHeat;
 
 /** How a texture lies on the flat metric. */
 export interface TexturePlace {
-  /** Cells to a unit of texture coordinates. */
+  /** The number of cells per unit of texture coordinates. */
   readonly cells: number;
-  /** Counter-clockwise, in degrees. */
+  /** The turn, counter-clockwise, in degrees. */
   readonly turn: number;
-  /** Shifts in cells. */
+  /** The shifts, in cells. */
   readonly x: number;
   readonly y: number;
 }
 
-/** A picture of the user's that lies on the flat metric: red, green, blue and opacity, row by row from the top. */
+/** A picture of the user that lies on the flat metric: red, green, blue and opacity, row by row from the top. */
 export interface TexturePicture {
   readonly name: string;
   readonly width: number;
@@ -63,36 +69,36 @@ export interface Style {
   readonly surface: PlainSurface | Texture | HeatMap;
   readonly texture: TexturePlace;
   readonly patchLines: boolean;
-  /** Where the texture is cut that the map carries. */
+  /** Whether the lines are drawn where the carried texture is cut. */
   readonly textureBoundary: boolean;
   readonly cones: boolean;
   readonly markers: boolean;
-  /** Share of the way that the source's shape has gone to the target's, 0 to 1; it takes a map to be seen. */
+  /** How far the source's shape has moved to the target's, as a share from 0 to 1; it is shown only where there is a map. */
   readonly morph: number;
-  /** Share of the source's view, from the left, in which the source is seen as it is by itself; `null` for none of it. */
+  /** The share of the source's view, from the left, in which the source is drawn plain; `null` while the line is hidden. */
   readonly wipe: number | null;
 }
 
-/** A camera as the views give it and take it back. */
+/** A camera, as numbers that the views return and accept. */
 export type Camera = readonly number[];
 
-/** How the page is looked at. It is kept with the work, but changes of it are no steps. */
+/** How the page is viewed. This is kept with the work, but changing it makes no step. */
 export interface Ui {
   readonly step: 'meshes' | 'landmarks' | 'map' | 'use' | 'method';
   readonly theme: 'system' | 'light' | 'dark';
   readonly panel: 'open' | 'folded';
-  /** Whether a turn of one view turns the other: not, by the same angle, or to the places that the map gives. */
+  /** Whether turning one view turns the other: not at all, by the same angle, or to the corresponding places of the map. */
   readonly link: 'free' | 'linked' | 'map';
-  /** By side; `null` as at the start. */
+  /** The camera of each side; `null` for its first position. */
   readonly cameras: readonly [Camera | null, Camera | null];
   readonly style: Style;
-  /** The id of the pair that keys act on and that, where it is half, the next click completes. */
+  /** The id of the selected pair: keys act on it and, where it is half, the next click completes it. `null` for none. */
   readonly selected: number | null;
-  /** The id of the pair under the mouse, in a list or a view. */
+  /** The id of the pair under the mouse, in a list or a view; `null` for none. */
   readonly hovered: number | null;
 }
 
-/** A finding with the ids of its pairs, which the core tells by their order. */
+/** A finding with the ids of its pairs; the core gives only their places in the order. */
 export interface Doubt extends Finding {
   readonly ids: readonly number[];
 }
@@ -100,23 +106,23 @@ export interface Doubt extends Finding {
 export interface Result {
   readonly output: RunOutput;
   readonly report: Report;
-  /** What it was made from. */
+  /** The work that the map was made from. */
   readonly inputs: Work;
-  /** The map file that it was opened from; `null` where it was made here. */
+  /** The map file that the map was opened from; `null` where the page has made the map. */
   readonly opened: { readonly name: string; readonly isMirrored: boolean } | null;
 }
 
-/** What a second program says of a map. */
+/** The verdict of a second program on a map. */
 export interface MapProof {
-  /** The map that it is about. */
+  /** The map that was judged. */
   readonly of: Result;
-  /** `null` while it is at work. */
+  /** The verdict; `null` while the program is at work. */
   readonly answer: ProofReport | null;
 }
 
-/** What is kept of a map that another one has taken the place of, to compare both. */
+/** What is kept of a map that another one has replaced, to compare both. */
 export interface EarlierMap {
-  /** What it was made from. */
+  /** The name of what it was made from. */
   readonly name: string;
   readonly report: Report;
   readonly pieces: Pieces;
@@ -128,7 +134,7 @@ export interface ComparedMap {
   readonly report: Report;
 }
 
-/** A map beside another one. */
+/** The comparison of the map on the page with another one. */
 export interface Comparison {
   /** The map on the page. */
   readonly of: Result;
@@ -137,7 +143,7 @@ export interface Comparison {
   readonly progress:
     | { readonly kind: 'computing'; readonly share: number }
     | { readonly kind: 'there'; readonly map: ComparedMap }
-    /** There is none, for this reason. */
+    /** The other map could not be made, for this reason. */
     | { readonly kind: 'failed'; readonly sentence: string };
 }
 
@@ -147,40 +153,40 @@ export interface Flattening {
   readonly progress:
     | { readonly kind: 'computing'; readonly share: number }
     | { readonly kind: 'there'; readonly flows: Flows }
-    /** There are none, for this reason. */
+    /** The flows could not be computed, for this reason. */
     | { readonly kind: 'failed'; readonly sentence: string };
 }
 
-/** The pieces of a map, triangles that it takes to triangles. */
+/** The pieces of a map: triangles of the source that it takes to triangles of the target. */
 export interface Pieces {
-  /** Three corners each. */
+  /** The corners of the triangles, three each. */
   readonly triangles: Uint32Array;
-  /** The corners' places on the source and on the target, three numbers each. */
+  /** The places of the corners on the source and on the target, three numbers each. */
   readonly places: readonly [Float32Array, Float32Array];
-  /** Whether they cover both meshes, so that measures of them are those of the map. */
+  /** Whether the pieces cover both meshes, so that their measures are those of the map. */
   readonly areWhole: boolean;
 }
 
-/** A place that the map proposes for the point that a half pair lacks. */
+/** A place that the map proposes for the missing point of a half pair. */
 export interface Proposal {
-  /** The pair's id, and the point that it has. */
+  /** The id of the pair, and the point that it has. */
   readonly id: number;
   readonly of: SurfacePoint;
-  /** The image of that point, on this side. */
+  /** The side of the proposed place, which is the image of that point. */
   readonly side: Side;
   readonly point: SurfacePoint;
 }
 
-/** A sentence that goes by itself. */
+/** A sentence that disappears by itself. */
 export interface Toast {
   readonly sentence: string;
-  /** Whether the last step can be taken back from it. */
+  /** Whether the toast has a button that undoes the last step. */
   readonly undo: boolean;
 }
 
-/** Work of an earlier visit. */
+/** Work of an earlier visit, which can be continued. */
 export interface Offer {
-  /** The session that is offered. */
+  /** The id of the session that is offered. */
   readonly session: string;
   readonly names: readonly [string | null, string | null];
   readonly pairs: number;
@@ -194,40 +200,40 @@ export interface State extends Work {
   readonly history: History;
   /** The id of the next pair. */
   readonly nextId: number;
-  /** Suggested landmarks by side. */
+  /** The suggested landmarks of each side. */
   readonly suggestions: readonly [readonly Suggestion[], readonly Suggestion[]];
-  /** Whether points come in pairs of left and right, and by which planes. */
+  /** Whether points come in pairs of left and right, and across which planes. */
   readonly leftRight: LeftRight;
-  /** The last place that the map proposed; `proposed` tells whether it still is about what is on the page. */
+  /** The last place that the map has proposed; `proposed` says whether it still applies to what is on the page. */
   readonly proposal: Proposal | null;
   readonly ui: Ui;
   readonly job: Job;
-  /** The last map. It stays when its inputs change, and is current again when they come back. */
+  /** The last map. It stays when its inputs change, and is up to date again when they come back. */
   readonly result: Result | null;
-  /** The proof of a map, which may be another one than that. */
+  /** The proof of a map, which may be another one than the last. */
   readonly proof: MapProof | null;
-  /** The map before it, of this visit. */
+  /** The map before the last one, of this visit. */
   readonly earlier: EarlierMap | null;
-  /** Another map beside the last one, while both are compared. */
+  /** Another map beside the last one, while the two are compared. */
   readonly comparison: Comparison | null;
   /** The flows of the last map, once a heat map has asked for them. */
   readonly flattening: Flattening | null;
-  /** The picture that lies on the flat metric where that style is chosen; it stays in this visit. */
+  /** The user's picture for the flat metric; it stays for this visit. */
   readonly texturePicture: TexturePicture | null;
-  /** The doubts of the last run, and what it was about. */
+  /** The findings of the last run, and the work that they are about. */
   readonly found: { readonly doubts: readonly Doubt[]; readonly inputs: Work } | null;
-  /** Those doubts while they are about what is on the page; else none. */
+  /** Those findings while they are about what is on the page; else empty. */
   readonly findings: readonly Doubt[];
-  /** Landmarks that the program looks for or has found. */
+  /** The search for landmarks, or its answer. */
   readonly matching: Matching | null;
   readonly toast: Toast | null;
-  /** What the link that was opened waits for. */
+  /** What the opened link waits for. */
   readonly receiving: Receiving;
   /** A map file that waits for its meshes. */
   readonly awaited: AwaitedMap | null;
-  /** Meshes that were refused and not left out. */
+  /** Refused meshes that the user has neither repaired nor left out. */
   readonly refused: Refused | null;
-  /** By side what was wrong with the mesh before it was repaired, while it is shown. */
+  /** What was wrong with each side's mesh before it was repaired, while that is shown. */
   readonly examined: readonly [Examined | null, Examined | null];
   /** Whether a newer build of the page waits for a reload. */
   readonly isOutdated: boolean;
@@ -235,7 +241,7 @@ export interface State extends Work {
   readonly undrawn: string | null;
   readonly offer: Offer | null;
   readonly error: string | null;
-  /** The last failure that nobody foresaw; `toldBreakdown` says whether the error is of it. */
+  /** The last breakdown; `toldBreakdown` says whether the shown error is about it. */
   readonly breakdown: Breakdown | null;
 }
 

@@ -1,4 +1,4 @@
-/** Steps of the work in words: their names, and what is said where they drop something. */
+/** The names of steps, and the toasts about steps that drop work. */
 import type { Pair } from '../landmarks.ts';
 import {
   clearedSentence,
@@ -17,15 +17,15 @@ import type { State, Toast } from './state.ts';
 
 type Of<K extends Event['kind']> = Extract<Event, { kind: K }>;
 
-/** What an event did, as a command; the kinds that make no step have no name. */
+/** The name of the step that each kind of event makes, as a command; kinds that make no step have none. */
 type Names = { readonly [K in Event['kind']]?: (event: Of<K>, before: State, after: State) => string };
 
-/** A pair by its number. */
+/** A pair by its number, such as "pair 7". */
 function called(state: State, id: number): string {
   return `pair ${state.pairs.find((pair) => pair.id === id)?.number ?? ''}`.trim();
 }
 
-/** What a pick did: the pair that is there or changed after it, or both where it came with its mirror image. */
+/** The name of a pick: it names the pair that was added or changed, or both pairs where the mirror image was placed as well. */
 function pickName(before: State, after: State): string {
   const numbers = after.pairs.filter((candidate) => !before.pairs.includes(candidate)).map(({ number }) => number);
   const isBegun = after.pairs.length > before.pairs.length;
@@ -78,7 +78,7 @@ const NAMES: Names = {
 };
 
 function nameOf(event: Event, before: State, after: State): string | null {
-  // The table's type says that the function under a kind takes its events; the compiler cannot follow that through a union.
+  // The table's type ensures that the function under a kind takes events of that kind; the compiler cannot see this for a union.
   const name = NAMES[event.kind] as ((event: Event, before: State, after: State) => string) | undefined;
   return name?.(event, before, after) ?? null;
 }
@@ -94,14 +94,14 @@ export function stepName(events: readonly Event[], before: State, after: State):
   return (named === undefined ? null : nameOf(named, before, after)) ?? 'Change';
 }
 
-/** How many pairs lost a point or went. */
+/** The number of pairs that lost a point or were removed. */
 function droppedCount(before: State, after: State): number {
   const pointsOf = ({ points }: Pair): number => points.filter((point) => point !== null).length;
   const later = new Map(after.pairs.map((pair) => [pair.id, pointsOf(pair)]));
   return before.pairs.filter((pair) => pointsOf(pair) > (later.get(pair.id) ?? 0)).length;
 }
 
-/** What is said of a step that drops work, beside the way back; `null` where it drops none. */
+/** The toast about a step that drops work, with the button that undoes it; `null` where the step drops none. */
 export function toastOf(events: readonly Event[], before: State, after: State): Toast | null {
   const undo = true;
   if (events.some(({ kind }) => kind === 'mirrored')) {

@@ -1,13 +1,13 @@
-/** Holds the state and tells its listeners of every change. It is the only thing on the page that holds it. */
+/** Holds the state, and calls its listeners at every change. Nothing else on the page holds the state. */
 import { change } from './change.ts';
 import type { Event } from './events.ts';
 import type { State } from './state.ts';
 import { INITIAL } from './state.ts';
 
-/** Hears of a change. */
+/** A listener to changes of the state. */
 export type Listener = (state: State, previous: State) => void;
 
-/** An event with what it lacks and others know. */
+/** Completes an event with fields that only others know. */
 export type Complete = (state: State, event: Event) => Event;
 
 export class Store {
@@ -19,7 +19,7 @@ export class Store {
     return this.#state;
   }
 
-  /** From now on the listener hears of every change, after those that came before it, until the returned function is called. */
+  /** Calls the listener at every change from now on, after the listeners that came before it, until the returned function is called. */
   subscribe(listener: Listener): () => void {
     this.#listeners = [...this.#listeners, listener];
     return () => {
@@ -27,7 +27,7 @@ export class Store {
     };
   }
 
-  /** From now on every event comes with what this adds to it. */
+  /** Completes every event by this function from now on. */
   completeBy(complete: Complete): void {
     this.#complete = complete;
   }

@@ -5,13 +5,16 @@ import type { State } from './state.ts';
 
 type Asking = Pick<State, 'pairs' | 'ui'>;
 
-/** The pair that a point picked on this side completes: the selected one, else the first that lacks it; `null` for a new pair. */
+/**
+ * The pair that a point picked on this side completes: the selected one, else the first one that lacks a point there; `null` where the
+ * point begins a pair.
+ */
 export function waitingFor({ pairs, ui }: Asking, side: Side): Pair | null {
   const lacks = pairs.filter(({ points }) => points[side] === null);
   return lacks.find(({ id }) => id === ui.selected) ?? lacks[0] ?? null;
 }
 
-/** The side on which a half pair lacks its point; `null` for a whole pair. */
+/** The side on which a half pair lacks its point; `null` for a pair with both points. */
 export function missingSide(pair: Pair): Side | null {
   return pair.points[0] === null ? 0 : pair.points[1] === null ? 1 : null;
 }
@@ -24,7 +27,7 @@ export function asked(state: Asking): { readonly pair: Pair; readonly side: Side
   return pair === undefined || side === null ? null : { pair, side };
 }
 
-/** How many half pairs have a point on one side and none on the other. */
+/** The number of half pairs that have a point on the other side and none on this one. */
 export function waitingCount({ pairs }: Pick<State, 'pairs'>, missing: Side): number {
   return pairs.filter(({ points }) => points[missing] === null && points[otherSide(missing)] !== null).length;
 }

@@ -1,104 +1,104 @@
-/** The cameras of both views: turned together or each by itself, gliding to where they are put. */
+/** The cameras of both views, which turn together or each by itself and glide to their new positions. */
 import type { Side } from '../landmarks.ts';
 import { otherSide, SIDES } from '../landmarks.ts';
 import type { Axis, Camera } from '../store/state.ts';
 import type { LookFrom, MeshDefects, Viewer } from '../wasm/page.js';
 import type { Place } from './gestures.ts';
 
-/** How long a camera glides, in ms: long enough for the eye to follow, short enough not to wait for. */
+/** The time in which a camera glides to a new position, in ms: long enough for the eye to follow, short enough that nobody waits for it. */
 const GLIDE = 180;
 
-/** Where a camera stands; `null` at the first look. */
+/** The numbers of a camera; `null` where it is in its first position. */
 export function cameraOf(viewer: Viewer, side: Side): Camera | null {
   const numbers = viewer.camera(side);
   return numbers === undefined ? null : [...numbers];
 }
 
-/** Moves cameras; `act` gives the renderer and asks for a frame. */
+/** Moves the cameras; `act` calls a function with the renderer and asks for a frame. */
 export class Cameras {
   readonly #act: (action: (viewer: Viewer) => void) => void;
   readonly #still = window.matchMedia('(prefers-reduced-motion: reduce)');
-  /** Whether what is done to one camera is done to the other. */
+  /** Whether both cameras move together. */
   linked = true;
-  /** Whether both views show the source, by its camera. */
+  /** Whether both views show the source, with the source's camera. */
   showsSourceTwice = false;
 
   constructor(act: (action: (viewer: Viewer) => void) => void) {
     this.#act = act;
   }
 
-  /** A gesture begins that may turn a view. */
+  /** Called when a gesture begins that may turn a view; makes sure that the camera turns about a point that is seen. */
   grab(side: Side): void {
     this.#each(side, 'at once', (viewer, each) => {
       viewer.grab(each);
     });
   }
 
-  /** Turns, in units of the view's height, y up. */
+  /** Turns a view, in units of its height, y up. */
   orbit(side: Side, dx: number, dy: number, way: 'smoothly' | 'at once' = 'at once'): void {
     this.#each(side, way, (viewer, each) => {
       viewer.orbit(each, dx, dy);
     });
   }
 
-  /** Moves sideways, likewise. */
+  /** Moves a view sideways, in the same units. */
   pan(side: Side, dx: number, dy: number, way: 'smoothly' | 'at once' = 'at once'): void {
     this.#each(side, way, (viewer, each) => {
       viewer.pan(each, dx, dy);
     });
   }
 
-  /** Turns the picture counter-clockwise, in radians. */
+  /** Turns the picture of a view counter-clockwise, in radians. */
   roll(side: Side, angle: number, way: 'smoothly' | 'at once' = 'smoothly'): void {
     this.#each(side, way, (viewer, each) => {
       viewer.roll(each, angle);
     });
   }
 
-  /** Brings what is seen at a place nearer by a factor; it stays where it is. In the other view the same place of the view does. */
+  /** Magnifies a view by a factor about a place, which stays where it is; the other view is magnified about the same place of that view. */
   zoom(side: Side, factor: number, at: Place, way: 'smoothly' | 'at once' = 'smoothly'): void {
     this.#each(side, way, (viewer, each) => {
-      // The renderer takes the factor of the distance.
+      // The renderer takes the factor by which the distance changes.
       viewer.zoomAt(each, 1 / factor, at.x, at.y);
     });
   }
 
-  /** Brings the whole mesh into the view; the direction stays. */
+  /** Shows the whole mesh in the view; the direction stays. */
   fit(side: Side): void {
     this.#each(side, 'smoothly', (viewer, each) => {
       viewer.fit(each);
     });
   }
 
-  /** Back to the first look. */
+  /** Goes back to the first position. */
   reset(side: Side): void {
     this.#each(side, 'smoothly', (viewer, each) => {
       viewer.resetCamera(each);
     });
   }
 
-  /** Looks at the whole mesh from one of six sides. */
+  /** Shows the whole mesh from one of six sides. */
   lookFrom(side: Side, from: LookFrom): void {
     this.#each(side, 'smoothly', (viewer, each) => {
       viewer.lookFrom(each, from);
     });
   }
 
-  /** Another axis of one mesh points up. */
+  /** Lets another axis of a mesh point up. */
   setUp(side: Side, axis: Axis, way: 'smoothly' | 'at once' = 'smoothly'): void {
     this.#one(side, way, (viewer) => {
       viewer.setUp(side, axis);
     });
   }
 
-  /** Turns one view to a landmark point, given as JSON, and comes near. */
+  /** Turns a view to a landmark point, given as JSON, and moves near it. */
   face(side: Side, point: string): void {
     this.#one(side, 'smoothly', (viewer) => {
       viewer.face(side, point);
     });
   }
 
-  /** Turns one view to a defect that it shows, and comes near. */
+  /** Turns a view to a defect that it shows, and moves near it. */
   faceDefect(side: Side, found: MeshDefects, group: number, index: number): void {
     this.#one(side, 'smoothly', (viewer) => {
       viewer.lookAtDefect(side, found, group, index);
@@ -106,8 +106,8 @@ export class Cameras {
   }
 
   /**
-   * Brings what is seen at a place to the middle, and turns about it from now on; in the other view its partner, if `partnerOf`
-   * tells one, or what is seen at the same place of the view.
+   * Moves the point that is seen at a place to the middle of the view, which turns about it from now on. The other view moves to the
+   * partner of that point where `partnerOf` gives one, else to the point at the same place of that view.
    */
   centre(view: Side, at: Place, partnerOf: (viewer: Viewer) => string | null): void {
     const side = this.#inView(view);
@@ -127,7 +127,7 @@ export class Cameras {
     });
   }
 
-  /** Puts a camera where one stood. */
+  /** Puts a camera into an earlier position; `null` is its first one. */
   restore(side: Side, camera: Camera | null): void {
     this.#one(side, 'at once', (viewer) => {
       if (camera === null) {
@@ -138,7 +138,7 @@ export class Cameras {
     });
   }
 
-  /** The side whose camera a view has. */
+  /** The side whose camera a view uses. */
   #inView(view: Side): Side {
     return this.showsSourceTwice ? 0 : view;
   }

@@ -1,4 +1,4 @@
-/** Pictures of files as pixels. */
+/** Decodes the pictures of files into pixels. */
 
 /** A picture's pixels: red, green, blue and opacity, row by row from the top. */
 export interface Pixels {
@@ -7,12 +7,12 @@ export interface Pixels {
   readonly pixels: Uint8Array;
 }
 
-/** Pixels on the longer side: more is not seen at the views' size. */
+/** The most pixels on the longer side; more cannot be seen at the views' size. */
 const LARGEST = 2048;
-/** So many pictures may be as large; of more each is smaller, so that all take no more memory. */
+/** The number of pictures that may have this size. Where there are more, each is smaller, so that all together take no more memory. */
 const LARGE_PICTURES = 4;
 
-/** The pixels of a picture's file, one of so many, made smaller where there are many; `null` where it cannot be read. */
+/** The pixels of a picture's file, made smaller where a mesh has many of them (`pictures`); `null` where it cannot be read. */
 export async function decoded(file: Uint8Array<ArrayBuffer>, pictures = 1): Promise<Pixels | null> {
   try {
     const picture = await createImageBitmap(new Blob([file]));

@@ -1,4 +1,4 @@
-/** Mouse, pen and touch become moves of cameras and pins, and picks. */
+/** Turns the events of mouse, pen and touch into moves of cameras and pins, and into picks. */
 import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
 
@@ -10,32 +10,32 @@ export interface Box {
   readonly height: number;
 }
 
-/** A place of a view: x and y from -1 to 1, y up. */
+/** A place in a view: x and y from -1 to 1, y up. */
 export interface Place {
   readonly x: number;
   readonly y: number;
 }
 
-/** What gestures do; lengths in units of the view's height, y up. */
+/** What gestures act on; lengths are in units of the view's height, y up. */
 export interface GestureTarget {
   box(side: Side): Box;
   focus(side: Side): void;
-  /** A gesture begins that may turn the view. */
+  /** Called when a gesture begins that may turn the view. */
   grab(side: Side): void;
   orbit(side: Side, dx: number, dy: number): void;
   pan(side: Side, dx: number, dy: number): void;
-  /** Counter-clockwise, in radians. */
+  /** Turns the picture counter-clockwise, in radians. */
   roll(side: Side, angle: number): void;
-  /** Brings what is seen at a place nearer by a factor; `smoothly` for single steps, not for what follows a hand. */
+  /** Magnifies about a place by a factor; `smoothly` for single steps, `at once` for motions that follow a hand. */
   zoom(side: Side, factor: number, at: Place, way: 'smoothly' | 'at once'): void;
-  /** Takes the pin under the pointer, if there is one; `slack` in CSS pixels. */
+  /** Takes the pin under the pointer; returns whether there is one. `slack` is in CSS pixels. */
   takePin(side: Side, at: Place, slack: number): boolean;
-  /** The pin that was taken follows. */
+  /** Moves the pin that was taken to a place. */
   dragPin(at: Place): void;
-  /** The pin that was taken is let go, having moved or not. */
+  /** Releases the pin that was taken, whether it has moved or not. */
   dropPin(outcome: 'moved' | 'clicked' | 'given up'): void;
   pick(side: Side, at: Place): void;
-  /** A click that may become a double click. */
+  /** Called at a click that may become a double click. */
   firstClick(side: Side, at: Place): void;
   doubleClick(side: Side, at: Place): void;
   hover(side: Side, at: Place): void;
@@ -47,33 +47,41 @@ interface Finger {
   y: number;
 }
 
-/** What one finger or the mouse does. */
+/** What a finger or the mouse is doing. */
 type Mode = 'turn' | 'move' | 'pin' | 'nothing';
 
-/** How far a pointer may travel between press and release and still click, in CSS pixels: hands and fingers tremble. */
+/** How far a pointer may move between press and release of a click, in CSS pixels, since hands and fingers tremble. */
 const CLICK_SLACK = 5;
-/** How far beside a pin's head a pointer still takes it, in CSS pixels; fingers are wider. */
+/** How far beside a pin's head a pointer may take the pin, in CSS pixels; fingers are wider. */
 const PIN_SLACK = { mouse: 3, touch: 12 };
-/** In ms: a second click within this time makes a double click. As systems have it, but a click must not wait for long. */
+/**
+ * The time between the clicks of a double click, in ms. It is about that of operating systems, but short, since a single click must wait
+ * for it.
+ */
 const DOUBLE_CLICK = 280;
-/** What a wheel tells for one notch: 100 pixels (Chromium), or 3 lines (Firefox). */
+/** The amount that a wheel reports for one notch: 100 pixels (Chromium), or 3 lines (Firefox). */
 const NOTCH_PIXELS = 100;
 const NOTCH_LINES = 3;
-/** Events bring more notches where the page was late or the wheel spins freely; more than these would lose the mesh. */
+/**
+ * The most notches of one event. An event has more where the page was late or the wheel spins freely, and would move the mesh out of sight.
+ */
 const MOST_NOTCHES = 3;
-/** The logarithm of a notch's factor: a little more than a key, as a notch is made more quickly. */
+/** The logarithm of the factor of a notch: a little more than that of a key, since a notch is made more quickly. */
 const NOTCH_ZOOM = 0.16;
-/** A pinch on a touchpad comes as a wheel with Ctrl, in steps of some pixels: five times as strong, the mesh follows the fingers. */
+/**
+ * The same for a pinch on a touchpad, which is reported as a wheel with Ctrl in steps of some pixels. At five times the strength the mesh
+ * follows the fingers.
+ */
 const PINCH_ZOOM = 5 * NOTCH_ZOOM;
 
-/** Listens on a canvas with two views. */
+/** Listens to the events of a canvas with two views. */
 export class Gestures {
   readonly #target: GestureTarget;
   readonly #fingers = new Map<number, Finger>();
   #side: Side = 0;
   #travelled = 0;
   #mode: Mode = 'nothing';
-  /** A click that waits whether another one follows. */
+  /** A click that waits for a possible second one. */
   #click: { readonly side: Side; readonly x: number; readonly y: number; readonly timer: number } | null = null;
 
   constructor(canvas: HTMLCanvasElement, target: GestureTarget) {
@@ -107,7 +115,7 @@ export class Gestures {
     canvas.addEventListener('wheel', (event) => { this.#turnWheel(event); }, { passive: false });
   }
 
-  /** Takes a click that waits for a second one as it is: what follows refers to its outcome. */
+  /** Treats a click that waits for a second one as a single click at once, because what follows depends on its outcome. */
   settle(): void {
     const click = this.#click;
     if (click !== null) {
@@ -192,7 +200,7 @@ export class Gestures {
     }
   }
 
-  /** Two fingers move, turn and stretch the picture; three and more only move it. */
+  /** Moves, turns and stretches the picture with two fingers; with three or more only moves it. */
   #moveMany(finger: Finger, before: Finger): void {
     const { height } = this.#target.box(this.#side);
     const others = [...this.#fingers.values()].filter((candidate) => candidate !== finger);
@@ -208,7 +216,7 @@ export class Gestures {
     if (lengths[0] > 1 && lengths[1] > 1) {
       const middle = { x: (finger.x + other.x) / 2, y: (finger.y + other.y) / 2 };
       this.#target.zoom(this.#side, lengths[1] / lengths[0], this.#place(this.#side, middle), 'at once');
-      // On the screen y goes down, so that this angle goes clockwise.
+      // On the screen y points down, so this angle is clockwise.
       const clockwise = Math.atan2(was.x * is.y - was.y * is.x, was.x * is.x + was.y * is.y);
       this.#target.roll(this.#side, -clockwise);
     }
@@ -286,7 +294,7 @@ export class Gestures {
     const notches = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY / NOTCH_PIXELS : event.deltaY / NOTCH_LINES;
     const bounded = Math.max(-MOST_NOTCHES, Math.min(MOST_NOTCHES, notches));
     const factor = Math.exp(-bounded * (event.ctrlKey ? PINCH_ZOOM : NOTCH_ZOOM));
-    // A wheel goes in notches; a touchpad in many small steps, which are smooth already.
+    // A wheel moves in notches; a touchpad moves in many small steps, which are smooth already.
     const way = event.ctrlKey || Math.abs(notches) < 0.5 ? 'at once' : 'smoothly';
     this.#target.zoom(under, factor, this.#place(under, at), way);
   }

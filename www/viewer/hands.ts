@@ -1,4 +1,4 @@
-/** What the user's hands do to the views: mouse, fingers and keys to cameras, pins, picks and questions to the map. */
+/** Connects mouse, fingers and keys with the views: with cameras, pins, picks and questions to the map. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
 import { otherSide, SIDES } from '../landmarks.ts';
 import { SENTENCES } from '../messages.ts';
@@ -16,30 +16,30 @@ import { Pins } from './pins.ts';
 import type { Probe } from './probe.ts';
 import { probeOf } from './probe.ts';
 
-/** What the hands work on. */
+/** What the hands act on. */
 export interface Workbench {
-  /** The renderer, while there is one. */
+  /** The renderer; `null` while there is none. */
   viewer(): Viewer | null;
   state(): State;
   readonly picture: Picture;
   readonly cameras: Cameras;
   box(side: Side): Box;
-  /** Calls the renderer and asks for a frame. */
+  /** Calls a function with the renderer, and asks for a frame. */
   act(action: (viewer: Viewer) => void): void;
-  /** The camera of a side was moved. */
+  /** Called when the camera of a side was moved. */
   moved(side: Side): void;
   dispatch(event: Event): void;
-  /** What the map says of the place under the mouse; `null` when the mouse has left. */
+  /** Called with the map at the place under the mouse; `null` when the mouse has left. */
   probed(probe: Probe | null): void;
 }
 
-/** Listens on the canvas and on the views' elements. */
+/** Listens to the events of the canvas and of the views' elements. */
 export class Hands {
   readonly #canvas: HTMLCanvasElement;
   readonly #bench: Workbench;
   readonly #pins: Pins;
   readonly #gestures: Gestures;
-  /** Where the mouse has gone since it was looked what is under it. */
+  /** The place to which the mouse has moved since the last look at what is under it. */
   #pointer: { readonly side: Side; readonly at: Place } | null = null;
   #probed = false;
 
@@ -64,7 +64,7 @@ export class Hands {
     }
   }
 
-  /** Moves the pin in the hand to where the pointer has gone; once a frame. */
+  /** Moves the pin that is dragged to the pointer; called once in each frame. */
   follow(viewer: Viewer): void {
     this.#pins.follow(viewer);
   }
@@ -216,14 +216,14 @@ export class Hands {
     }
   }
 
-  /** The partner of what is seen at a place, as JSON; `null` without a map. */
+  /** The partner of the point that is seen at a place, as JSON; `null` without a map. */
   #partnerAt(viewer: Viewer, side: Side, at: Place): string | null {
     const probe = this.#bench.picture.bringMap(viewer) ? probeOf(side, viewer.probe(side, at.x, at.y), this.#bench.picture.known) : null;
     viewer.clearProbe();
     return probe === null ? null : JSON.stringify(probe.points[otherSide(side)]);
   }
 
-  /** Looks what is under the mouse at the next frame's time; that draws a frame only where something comes of it. */
+  /** Looks at what is under the mouse before the next frame. A frame is drawn only where the picture changes. */
   #pointTo(side: Side, at: Place): void {
     if (this.#pointer === null) {
       requestAnimationFrame(() => {
@@ -233,7 +233,7 @@ export class Hands {
             this.#look(viewer);
           }
         } finally {
-          // Also where the look broke off: otherwise no later move would be looked at.
+          // Reset even where the look failed; otherwise no later move would be looked at.
           this.#pointer = null;
         }
       });
@@ -252,7 +252,7 @@ export class Hands {
       this.#endProbe();
       return;
     }
-    // Rings that somebody else asked for go, too.
+    // Rings that were shown for another reason are removed, too.
     const shown = viewer.clearProbe();
     this.#bench.picture.bringPatches(viewer);
     const probe = probeOf(side, viewer.probe(side, at.x, at.y), this.#bench.picture.known);

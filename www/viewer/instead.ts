@@ -1,4 +1,4 @@
-/** What the views show in the place of the meshes as they are: refused meshes, defects, a map in the making, coarser meshes. */
+/** What the views show instead of the meshes: refused meshes, defects, a preview of the map, coarser meshes. */
 import { SIDES } from '../landmarks.ts';
 import type { StageFrame, Stops } from '../method/hands.ts';
 import { shownDefects } from '../store/defects.ts';
@@ -7,7 +7,7 @@ import type { State } from '../store/state.ts';
 import { upOf } from '../store/work.ts';
 import type { Viewer } from '../wasm/page.js';
 
-/** What is wrong with a mesh: a refused one in the place of the side's own, or over that where it was repaired. */
+/** Shows defects: a refused mesh instead of the side's own, or marks over the side's mesh where it was repaired. */
 export function showDefects(viewer: Viewer, state: State, previous: State | null): void {
   for (const side of SIDES) {
     const shown = shownDefects(state, side);
@@ -26,7 +26,7 @@ export function showDefects(viewer: Viewer, state: State, previous: State | null
   }
 }
 
-/** The triangles that stopped a flow, over the mesh of their side; elsewhere what is wrong with that. */
+/** Shows the triangles that stopped a flow over the mesh of their side; on other sides the defects of the mesh. */
 export function showStops(viewer: Viewer, state: State, stops: Stops | null): void {
   showDefects(viewer, state, null);
   for (const side of SIDES) {
@@ -37,7 +37,7 @@ export function showStops(viewer: Viewer, state: State, stops: Stops | null): vo
   }
 }
 
-/** The map that is being made, where there is one. */
+/** Shows the preview of the map that is being made, where there is one. */
 export function showPreview(viewer: Viewer, state: State): void {
   const preview = shownPreview(state);
   if (preview === null) {
@@ -47,12 +47,12 @@ export function showPreview(viewer: Viewer, state: State): void {
   }
 }
 
-/** The stages that a renderer has. */
+/** The stages that each renderer has. */
 const STAGES = new WeakMap<Viewer, StageFrame['sides']>();
 
 const NO_PLACES = new Float32Array();
 
-/** Both meshes on their way to their landmarks, or as they are. */
+/** Shows a stage of the simplification of both meshes; `null` shows the meshes as they are. */
 export function showStage(viewer: Viewer, frame: StageFrame | null): void {
   if (frame === null) {
     STAGES.delete(viewer);

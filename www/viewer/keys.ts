@@ -1,44 +1,46 @@
-/** Keys of a view that has the focus. */
+/** The keys of a view that has the focus. */
 import type { Side } from '../landmarks.ts';
 import type { LookFrom } from '../wasm/page.js';
 import type { Place } from './gestures.ts';
 
-/** What keys do; lengths in units of the view's height, y up. */
+/** What keys act on; lengths are in units of the view's height, y up. */
 export interface KeyTarget {
   orbit(side: Side, dx: number, dy: number): void;
   pan(side: Side, dx: number, dy: number): void;
-  /** Counter-clockwise, in radians. */
+  /** Turns the picture counter-clockwise, in radians. */
   roll(side: Side, angle: number): void;
   zoom(side: Side, factor: number, at: Place): void;
   fit(side: Side): void;
   reset(side: Side): void;
   lookFrom(side: Side, from: LookFrom): void;
-  /** Moves the selected pin, in CSS pixels, y up; whether there is one. */
+  /** Moves the selected pin, in CSS pixels, y up; returns whether there is one. */
   nudge(side: Side, dx: number, dy: number): boolean;
-  /** Deletes the selected pair; whether there is one. */
+  /** Deletes the selected pair; returns whether there is one. */
   deleteSelected(): boolean;
   pick(side: Side, at: Place): void;
-  /** Takes the place that the map proposes; whether there is one. */
+  /** Accepts the place that the map proposes; returns whether there is one. */
   accept(): boolean;
-  /** Gives up what the hands are at; whether there was something. */
+  /** Gives up what is in progress; returns whether anything was. */
   escape(): boolean;
 }
 
-/** The keys in words, for those who do not see the views. */
+/** A sentence about the keys, for users who do not see the views. */
 export const HELP =
   'Arrow keys turn, with Shift they move; Q and E roll; plus, minus, Page Up and Page Down zoom; F fits the mesh into the view; 0 resets; ' +
   'Shift with F, B, L, R, T or U looks from the front, the back, the left, the right, the top or from under; ' +
   'Enter or Space picks the point in the middle; where the map proposes a place, Enter takes it and Escape drops it. With a landmark selected arrow keys move it, Delete deletes it, Escape lets it go.';
 
-/** An arrow key's step in heights of the view. A height turns by 4 rad, so that this is 14°: 26 presses go round. */
+/**
+ * The step of an arrow key, in heights of the view. A drag over the height turns by 4 rad, so this is 14°, and 26 presses make a full turn.
+ */
 const STEP = 0.06;
-/** A zoom key's factor: five presses double the size. */
+/** The factor of a zoom key: five presses double the size. */
 const ZOOM = 1.15;
-/** Page Up and Page Down: two presses double the size. */
+/** The factor of Page Up and Page Down: two presses double the size. */
 const PAGE_ZOOM = Math.SQRT2;
-/** In radians: 24 presses go round. */
+/** The angle of a roll key, in radians: 24 presses make a full turn. */
 const ROLL = Math.PI / 12;
-/** What Shift makes of a pixel. */
+/** The factor by which Shift increases a step of one pixel. */
 const COARSE = 10;
 
 const MIDDLE: Place = { x: 0, y: 0 };
@@ -52,7 +54,7 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
 
 const DIRECTIONS: Readonly<Record<string, LookFrom>> = { F: 'front', B: 'back', L: 'left', R: 'right', T: 'top', U: 'bottom' };
 
-/** Does what a key asks for; whether it means anything here. */
+/** Does what a key means in a view; returns whether it means anything. */
 export function pressKey(target: KeyTarget, side: Side, event: KeyboardEvent): boolean {
   if (event.ctrlKey || event.metaKey || event.altKey) {
     return false;

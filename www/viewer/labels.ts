@@ -1,16 +1,16 @@
-/** The landmarks' numbers over a view. */
+/** The numbers of the landmarks over a view. */
 import { make } from '../dom.ts';
 
-/** A number and how it stands out. */
+/** A number, and whether it stands out. */
 export interface Label {
   readonly text: string;
   readonly raised: boolean;
 }
 
-/** From the middle of a pin's head to its number, in CSS pixels: the head's radius and a little. */
+/** The distance from the middle of a pin's head to its number, in CSS pixels: a little more than the head's radius. */
 const BESIDE = { plain: 8, raised: 10 };
 
-/** One view's numbers. */
+/** The numbers over one view. */
 export class Labels {
   readonly #layer = make('div', { class: 'labels', 'aria-hidden': 'true' });
   readonly #items: HTMLElement[] = [];
@@ -19,7 +19,7 @@ export class Labels {
     view.prepend(this.#layer);
   }
 
-  /** Places the numbers beside their pins' heads: x, y in [-1, 1] (y up) and visible (0 or 1) for each. */
+  /** Places the numbers beside the heads of their pins; `places` has x and y in [-1, 1] (y up) and visible (0 or 1) for each. */
   place(labels: readonly Label[], places: Float32Array, width: number, height: number): void {
     while (this.#items.length < labels.length) {
       const item = make('span');

@@ -1,4 +1,4 @@
-/** What a map brings to the picture: each of its buffers goes to the renderer when the picture needs it, and not before. */
+/** Brings the buffers of a map to the renderer, each when the picture first needs it. */
 import type { Way } from '../compute/saved-messages.ts';
 import type { Flows } from '../compute/watch-messages.ts';
 import { scaleOf } from '../heat/scales.ts';
@@ -14,12 +14,12 @@ import { isFlowHeat, isMapHeat } from '../store/surfaces.ts';
 import type { SurfaceStyle, Viewer } from '../wasm/page.js';
 import type { Known } from './probe.ts';
 
-/** The sides on which a style is drawn on the map's own triangles; the meshes themselves can show the others. */
+/** The sides on which a style needs the map's own triangles; on the other sides the mesh itself can show the style. */
 const OVERLAYS: Readonly<Record<Style['surface'], readonly Side[]>> = {
   shaded: [],
-  // What the map carries of it has triangles of its own.
+  // The look that the map carries has triangles of its own.
   look: [],
-  // What follows from the place on the target, the target's mesh shows.
+  // A style that depends only on the place on the target can be shown by the target's mesh.
   pattern: [0],
   colours: [0],
   checkerboard: SIDES,
@@ -31,13 +31,13 @@ const OVERLAYS: Readonly<Record<Style['surface'], readonly Side[]>> = {
   angles: SIDES,
   areas: SIDES,
   truth: SIDES,
-  // The meshes' own vertices show these.
+  // Values at vertices are shown by the meshes themselves.
   factor: [],
   curvature: [],
   'flat-curvature': [],
 };
 
-/** What the renderer draws of a surface: the checkerboard in the place of a picture that is not there. */
+/** The surface that the renderer draws: the checkerboard instead of a picture that is missing. */
 export function drawnSurface(surface: Style['surface'], picture: TexturePicture | null): SurfaceStyle {
   if (isFlowHeat(surface)) {
     return 'shaded';
@@ -50,21 +50,21 @@ export function drawnSurface(surface: Style['surface'], picture: TexturePicture 
 
 const NO_VALUES = new Float32Array();
 
-/** The places of a map's points on the scale of a heat map; none without one. */
+/** The places of a map's points on the scale of a heat map; empty without a heat map. */
 function placesOf(output: ComparedMap['output'], heat: MapHeat | null): Float32Array {
   return heat === null ? NO_VALUES : valuesByPoint(output, heat).map(scaleOf(heat).place);
 }
 
-/** Knows what one renderer has. */
+/** Knows which buffers one renderer has. */
 export class Picture {
   #result: Result | null = null;
   #overlays = new Set<Side>();
   /** The heat map whose places the overlays have; `null` where they have none. */
   #heat: MapHeat | null = null;
   #places: Float32Array = NO_VALUES;
-  /** By point of the map the values of the heat map that is shown. */
+  /** The values of the shown heat map at the points of the map; `null` where no such heat map is shown. */
   #values: Float32Array | null = null;
-  /** The flows that a heat map of the vertices shows, and which. */
+  /** The heat map of the vertices that is shown, and the flows that it is about. */
   #vertices: { readonly flows: Flows; readonly heat: FlowHeat; readonly shown: VertexHeat } | null = null;
   #lines = false;
   #seams = false;
@@ -74,24 +74,24 @@ export class Picture {
   #patches = false;
   #lit: BasePart | null = null;
   #isMorphed = false;
-  /** The ways of maps to the target's shape, as far as they are known; they outlast the renderer. */
+  /** The known ways of maps to the target's shape; they stay when the renderer is replaced. */
   readonly #ways = new WeakMap<Result['output'], Way>();
   #way = false;
   #compared: ComparedMap | null = null;
-  /** What of the other map the renderer has, with the scale that its colours tell. */
+  /** The heat map whose places the renderer has for the other map, or `none`; `null` where it does not have that map. */
   #comparedHeat: MapHeat | 'none' | null = null;
   #comparedLines = false;
   #moment: FlowFrame['places'] | null = null;
   #radii: FlowFrame['radii'] = null;
-  /** Whether somebody looks at the base domain, whose parts light up on the meshes. */
+  /** Whether the base domain is looked at, whose parts light up on the meshes. */
   wantsPatches = false;
 
-  /** Whether the source is shown in another shape than its own: nothing on it is where its mesh has it. */
+  /** Whether the source is shown in another shape than its own, so that no place on it is where its mesh has it. */
   get isMorphed(): boolean {
     return this.#isMorphed;
   }
 
-  /** Another map, or none; what was of the last one goes. The look of the giver, where there is one, is carried by the map. */
+  /** Takes another map, or none, and drops the buffers of the last one. `giver` is the side whose look the map carries. */
   take(viewer: Viewer, result: Result | null, giver: Side | null): void {
     viewer.clearResult();
     this.#result = result;
@@ -113,7 +113,7 @@ export class Picture {
     this.#vertices = null;
   }
 
-  /** The second view shows another map from now on, or its own side. */
+  /** Lets the second view show another map from now on; `null` shows its own side. */
   compare(viewer: Viewer, map: ComparedMap | null): void {
     this.#compared = map;
     this.#comparedHeat = null;
@@ -121,7 +121,7 @@ export class Picture {
     viewer.clearCompared();
   }
 
-  /** Brings of the other map what a style needs. */
+  /** Brings the buffers of the other map that a style needs. */
   #bringCompared(viewer: Viewer, { output }: ComparedMap, style: Style): void {
     const [source, target] = output.sides;
     if (this.#comparedHeat !== (this.#heat ?? 'none')) {
@@ -135,7 +135,10 @@ export class Picture {
     }
   }
 
-  /** From now on a map's points go this way; what of the source's triangles the renderer has goes straight, and is brought anew. */
+  /**
+   * Lets the points of a map move on this way from now on. Triangles of the source that the renderer has move straight, so they are brought
+   * again.
+   */
   takeWay(viewer: Viewer, output: Result['output'], way: Way): void {
     this.#ways.set(output, way);
     if (this.#result?.output !== output) {
@@ -152,7 +155,7 @@ export class Picture {
     }
   }
 
-  /** Brings the way of the map, where it is known: before the triangles that go it. */
+  /** Brings the way of the map, where it is known. It must come before the triangles that use it. */
   #bringWay(viewer: Viewer, output: Result['output']): void {
     const way = this.#ways.get(output);
     if (way !== undefined && !this.#way) {
@@ -161,7 +164,7 @@ export class Picture {
     }
   }
 
-  /** Brings the map's triangles on one side; whether there is a map. */
+  /** Brings the map's triangles on one side; returns whether there is a map. */
   bringOverlay(viewer: Viewer, side: Side): boolean {
     const result = this.#result;
     if (result !== null) {
@@ -176,7 +179,7 @@ export class Picture {
     return result !== null;
   }
 
-  /** Brings the map's triangles in the look that it carries: the target's, or else the source's. */
+  /** Brings the map's triangles in the look that the map carries: the target's, or else the source's. */
   #bringLook(viewer: Viewer, output: Result['output']): void {
     const { sides, triangles, faces } = output;
     const giver = this.#giver;
@@ -185,7 +188,7 @@ export class Picture {
     }
     this.#bringWay(viewer, output);
     const [{ positions: places }, target] = [sides[giver], sides[1]];
-    // The giver itself goes on its own way to the target's shape where it is the source.
+    // The source's own mesh, where it is the giver, needs its triangles, too, to move to the target's shape.
     for (const side of giver === 0 ? SIDES : ([0] as const)) {
       const { positions, normals } = sides[side];
       viewer.setCarriedLook(side, giver, positions, normals, places, target.positions, target.normals, triangles, faces[giver]);
@@ -193,7 +196,7 @@ export class Picture {
     this.#carried = true;
   }
 
-  /** Has the overlays brought anew where a heat map shows something else than theirs. */
+  /** Has the overlays brought again where another heat map is shown than the one that they have. */
   #tell(output: Result['output'], surface: Style['surface']): void {
     const heat = isMapHeat(surface) ? surface : null;
     if (heat !== null && heat !== this.#heat) {
@@ -204,7 +207,7 @@ export class Picture {
     this.#values = heat === null ? null : valuesByPoint(output, heat);
   }
 
-  /** What is known of the places that are asked for. */
+  /** The values from which questions about places are answered. */
   get known(): Known {
     const isFlow = this.#moment !== null;
     return {
@@ -214,7 +217,7 @@ export class Picture {
     };
   }
 
-  /** Brings what a style needs. */
+  /** Brings the buffers that a style needs. */
   bring(viewer: Viewer, style: Style): void {
     const result = this.#result;
     if (result === null) {
@@ -245,14 +248,14 @@ export class Picture {
     }
   }
 
-  /** Shows the source's shape on its way to the target's, where there is a map: 0 the source's, 1 the target's. */
+  /** Shows the source on its way to the target's shape, where there is a map: 0 is the source's shape, 1 the target's. */
   morph(viewer: Viewer, share: number): void {
     const isThere = share > 0 && this.bringOverlay(viewer, 0);
     viewer.setMorph(isThere ? share : 0);
     this.#isMorphed = isThere;
   }
 
-  /** Brings the map to be asked at single places; whether there is one. */
+  /** Brings the map, so that it can be asked about single places; returns whether there is one. */
   bringMap(viewer: Viewer): boolean {
     if (this.#result !== null && !this.#map) {
       const { sides, triangles } = this.#result.output;
@@ -262,7 +265,7 @@ export class Picture {
     return this.#map;
   }
 
-  /** Brings the patches where somebody wants them; whether there are any. */
+  /** Brings the patches where they are wanted; returns whether there are any. */
   bringPatches(viewer: Viewer): boolean {
     const base = this.#result?.output.base ?? null;
     if (this.#result !== null && base !== null && this.wantsPatches && !this.#patches) {
@@ -276,7 +279,7 @@ export class Picture {
     return this.#patches;
   }
 
-  /** Lights up what a part of the base domain is on both meshes, in the place of what was lit up; whether that is another part. */
+  /** Lights up a part of the base domain on both meshes, in place of the last one; returns whether it is another part. */
   light(viewer: Viewer, part: BasePart | null): boolean {
     const isOther = this.#lit?.kind !== part?.kind || this.#lit?.index !== part?.index;
     const base = this.#result?.output.base ?? null;
@@ -289,7 +292,7 @@ export class Picture {
     return true;
   }
 
-  /** Shows the flows on both meshes in the place of the style's picture; `null` for that again. */
+  /** Shows the flows on both meshes instead of the style's picture; `null` shows the style's picture again. */
   showFlow(viewer: Viewer, frame: FlowFrame | null): void {
     if (frame === null) {
       this.#moment = null;
@@ -304,7 +307,7 @@ export class Picture {
       this.#moment = frame.places;
       this.#radii = frame.radii;
     }
-    // Circles are of one moment.
+    // Circles cannot be blended; they belong to one moment.
     viewer.blendFactors(frame.radii === null ? frame.share : 0);
     if (isOther && frame.radii !== null) {
       for (const side of SIDES) {
@@ -313,7 +316,7 @@ export class Picture {
     }
   }
 
-  /** Shows a heat map of the vertices where the surface is one and its flows are there, in the place of the style's picture. */
+  /** Shows a heat map of the vertices instead of the style's picture, where the surface is one and its flows are computed. */
   showHeat(viewer: Viewer, surface: Style['surface'], flows: Flows | null): void {
     const heat = flows !== null && isFlowHeat(surface) ? surface : null;
     if (heat === (this.#vertices?.heat ?? null) && (heat === null || flows === this.#vertices?.flows)) {
@@ -337,7 +340,7 @@ export class Picture {
     viewer.blendFactors(0);
   }
 
-  /** Nobody looks at the base domain any more. */
+  /** Removes the patches, since the base domain is no longer looked at. */
   leavePatches(viewer: Viewer): void {
     this.wantsPatches = false;
     this.#patches = false;

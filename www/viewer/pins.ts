@@ -1,4 +1,4 @@
-/** Landmarks under the hand: which pin is under the pointer, taken, dragged, nudged. */
+/** The pins of landmarks: which one is under the pointer, and how pins are taken, dragged and nudged. */
 import type { Pair, Side, SurfacePoint } from '../landmarks.ts';
 import { twinOf } from '../store/across.ts';
 import type { Event } from '../store/events.ts';
@@ -10,27 +10,27 @@ import type { Viewer } from '../wasm/page.js';
 import type { Place } from './gestures.ts';
 import type { Label } from './labels.ts';
 
-/** Nudges of one pin that follow each other within this time, in ms, are one step. */
+/** The longest time between nudges of one pin that make one step, in ms. */
 const NUDGES_TOGETHER = 1000;
 
-/** How far beside a pin a pointer that only hovers still finds it, in CSS pixels. */
+/** How far beside a pin a hovering pointer still finds it, in CSS pixels. */
 const HOVER_SLACK = 2;
 
 interface Drag {
   readonly side: Side;
   readonly pair: Pair;
-  /** Where the point across from it was. */
+  /** The point of the twin on this side when the drag began; `null` for none. */
   readonly twin: SurfacePoint | null;
   readonly gesture: number;
-  /** From the pointer to the point, in places of the view. */
+  /** The vector from the pointer to the point, in coordinates of the view. */
   readonly offset: Place;
-  /** Where the pointer has gone since the last frame. */
+  /** The place to which the pointer has moved since the last frame; `null` where it has not moved. */
   at: Place | null;
-  /** Whether its point has been told to be elsewhere. */
+  /** Whether the store has been given another place of the point. */
   placed: boolean;
 }
 
-/** The pairs' colours and cones, and the place that is proposed, in the renderer's words: a JSON array in pair order. */
+/** The pairs' colours and cones, and the proposed place, in the renderer's form: a JSON array in the order of the pairs. */
 export function marksOf(state: State, side: Side): string {
   const { ui, pairs } = state;
   const cones = conesOf(state);
@@ -46,13 +46,13 @@ export function marksOf(state: State, side: Side): string {
   return JSON.stringify(marks);
 }
 
-/** The place that is proposed on a side; `null` for none. */
+/** The proposed place on a side; `null` for none. */
 function ghostOn(state: State, side: Side): Proposal | null {
   const proposal = proposed(state);
   return proposal?.side === side ? proposal : null;
 }
 
-/** Curvatures of the last map's cones by pair id, while they are where the pairs are. */
+/** The curvatures of the last map's cones by pair id; empty where the pairs are no longer where the cones are. */
 function conesOf(state: State): ReadonlyMap<number, number> {
   const result = shownResult(state);
   if (result === null || !hasItsCones(state)) {
@@ -61,7 +61,7 @@ function conesOf(state: State): ReadonlyMap<number, number> {
   return new Map(wholePairs(result.inputs).map(({ id }, order) => [id, result.output.cones[order] ?? 0]));
 }
 
-/** The pairs' numbers on a side, in pair order; a place that is proposed has a question mark. */
+/** The numbers of the pairs on a side, in the order of the pairs; a proposed place has a question mark. */
 export function labelsOf(state: State, side: Side): readonly Label[] {
   const { pairs, ui } = state;
   const ghost = ghostOn(state, side);
@@ -71,7 +71,7 @@ export function labelsOf(state: State, side: Side): readonly Label[] {
   }));
 }
 
-/** Moves pins; what they do goes to the store. */
+/** Moves pins, and dispatches the resulting events. */
 export class Pins {
   readonly #dispatch: (event: Event) => void;
   #drag: Drag | null = null;
@@ -82,18 +82,18 @@ export class Pins {
     this.#dispatch = dispatch;
   }
 
-  /** Whether a pin is in the hand. */
+  /** Whether a pin is being dragged. */
   get isDragging(): boolean {
     return this.#drag !== null;
   }
 
-  /** The pair whose pin is under the pointer. */
+  /** The pair whose pin is under the pointer; `null` for none. */
   under(viewer: Viewer, state: State, side: Side, at: Place): Pair | null {
     const index = state.ui.style.markers ? viewer.pinAt(side, at.x, at.y, HOVER_SLACK) : undefined;
     return index === undefined ? null : (state.pairs[index] ?? null);
   }
 
-  /** Takes the pin under the pointer; whether there is one. */
+  /** Takes the pin under the pointer; returns whether there is one. */
   take(viewer: Viewer, state: State, side: Side, at: Place, slack: number): boolean {
     const index = state.ui.style.markers ? viewer.pinAt(side, at.x, at.y, slack) : undefined;
     const pair = index === undefined ? undefined : state.pairs[index];
@@ -108,14 +108,14 @@ export class Pins {
     return true;
   }
 
-  /** The pin in the hand is to follow the pointer, in the next frame. */
+  /** Notes the place to which the pin is to follow the pointer in the next frame. */
   drag(at: Place): void {
     if (this.#drag !== null && !this.#drag.pair.locked) {
       this.#drag.at = at;
     }
   }
 
-  /** Moves the pin in the hand to where the pointer has gone; off the body it stays. */
+  /** Moves the dragged pin to the pointer; beside the body it stays where it is. */
   follow(viewer: Viewer): void {
     const drag = this.#drag;
     const at = drag?.at ?? null;
@@ -131,7 +131,7 @@ export class Pins {
     }
   }
 
-  /** Lets the pin in the hand go; a click selects it, and what is given up goes back. */
+  /** Releases the dragged pin; a click selects it, and a drag that is given up takes it back. */
   drop(outcome: 'moved' | 'clicked' | 'given up'): void {
     const drag = this.#drag;
     this.#drag = null;
@@ -149,7 +149,7 @@ export class Pins {
     }
   }
 
-  /** Moves the selected pair's pin of a side by CSS pixels, y up; whether there is one. */
+  /** Moves the selected pair's pin on a side by CSS pixels, y up; returns whether there is one. */
   nudge(viewer: Viewer, state: State, side: Side, dx: number, dy: number): boolean {
     const index = state.pairs.findIndex(({ id }) => id === state.ui.selected);
     const pair = state.pairs[index];

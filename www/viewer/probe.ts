@@ -1,41 +1,41 @@
-/** What the map says of a place. */
+/** What the map says about a place. */
 import type { Side, SurfacePoint } from '../landmarks.ts';
 
-/** A point of a mesh's file in its own coordinates. */
+/** A point in the coordinates of a mesh's file. */
 export type Position = readonly [number, number, number];
 
-/** A place of one mesh that the map was asked about, with its partner. */
+/** The answer about a place of one mesh, with its partner. */
 export interface Probe {
-  /** The side that was asked. */
+  /** The side that was asked about. */
   readonly side: Side;
-  /** On the source and on the target. */
+  /** The place on the source and on the target. */
   readonly points: readonly [SurfacePoint, SurfacePoint];
-  /** Likewise, in the files' coordinates. */
+  /** The positions of both places, in the files' coordinates. */
   readonly positions: readonly [Position, Position];
-  /** Distortion of the map there, 1 for none; `null` where it is not known. */
+  /** The distortion of the map at the place, 1 for none; `null` where it is not known. */
   readonly distortion: number | null;
-  /** What the heat map that is shown has there: one value of the map, or one on each mesh; `null` where none is shown. */
+  /** The values of the shown heat map at the place: one of the map, or one on each mesh; `null` where no heat map is shown. */
   readonly heat: readonly number[] | null;
-  /** The base triangle in whose patch the place lies; `null` where nobody asks for patches, or there are none. */
+  /** The base triangle in whose patch the place lies; `null` while patches are not wanted, and where there are none. */
   readonly patch: number | null;
 }
 
-/** What the renderer answers. */
+/** The renderer's answer. */
 interface Answer extends Pick<Probe, 'points' | 'positions' | 'patch'> {
-  /** The points of the map's triangle there, and their weights. */
+  /** The corners of the map's triangle at the place, as points of the map, and their weights. */
   readonly corners: readonly [number, number, number];
   readonly weights: readonly [number, number, number];
-  /** By side the place on the scale of a heat map of the vertices; `null` where none is shown. */
+  /** The place on each side on the scale of a heat map of the vertices; `null` where none is shown. */
   readonly places: readonly [number | null, number | null];
 }
 
-/** What is known of the places that are asked for. */
+/** The values from which questions about places are answered. */
 export interface Known {
-  /** By point of the map; empty where it is not known. */
+  /** The distortion at each point of the map; empty where it is not known. */
   readonly distortion: Float32Array;
-  /** Values of the heat map that is shown, by point of the map. */
+  /** The values of the shown heat map at the points of the map; `null` where it is not one of the map. */
   readonly values: Float32Array | null;
-  /** The value at a place on the scale of the heat map of the vertices that is shown. */
+  /** The value at a place on the scale of the shown heat map of the vertices; `null` where none is shown. */
   readonly valueAt: ((place: number) => number) | null;
 }
 
@@ -51,7 +51,7 @@ function blend(values: Float32Array, corners: Answer['corners'], weights: Answer
   return corners.reduce((sum, corner, k) => sum + (weights[k] ?? 0) * (values[corner] ?? 0), 0);
 }
 
-/** What the map says of a place; `null` where the renderer has no answer. */
+/** The answer about a place; `null` where the renderer has none. */
 export function probeOf(side: Side, json: string | undefined, known: Known): Probe | null {
   if (json === undefined) {
     return null;

@@ -1,9 +1,9 @@
-/** Suggested points over a view: hollow rings, taken as a landmark by a click or a key. */
+/** The rings of suggested points over a view; a click or a key takes one as a landmark. */
 import { make } from '../dom.ts';
 import type { Suggestion } from '../landmarks.ts';
 import { suggestionName } from '../messages.ts';
 
-/** One view's rings. */
+/** The rings over one view. */
 export class Rings {
   readonly #layer: HTMLElement;
   #rings: HTMLButtonElement[] = [];
@@ -13,7 +13,7 @@ export class Rings {
     view.append(this.#layer);
   }
 
-  /** Shows these suggestions; `take` hears which one is taken. */
+  /** Shows these suggestions; `take` is called with the one that is taken. */
   show(suggestions: readonly Suggestion[], take: (suggestion: Suggestion) => void): void {
     this.#rings = suggestions.map((suggestion) => {
       const name = suggestionName(suggestion, suggestions);
@@ -23,7 +23,7 @@ export class Rings {
       });
       ring.addEventListener('keydown', (event) => {
         if (event.key === 'Enter' || event.key === ' ') {
-          // The view below would pick the point in its middle.
+          // Otherwise the view below would pick the point in its middle.
           event.stopPropagation();
         }
       });
@@ -32,7 +32,7 @@ export class Rings {
     this.#layer.replaceChildren(...this.#rings);
   }
 
-  /** Places the rings: x, y in [-1, 1] (y up) and visible (0 or 1) for each. */
+  /** Places the rings; `places` has x and y in [-1, 1] (y up) and visible (0 or 1) for each. */
   place(places: Float32Array, width: number, height: number): void {
     this.#rings.forEach((ring, index) => {
       ring.hidden = (places[3 * index + 2] ?? 0) < 0.5;

@@ -1,8 +1,8 @@
-/** The canvas on the screen: its pixels, the boxes of both views in it, and when they change. */
+/** The canvas on the screen: its size in pixels, the boxes of both views in it, and changes of these. */
 import { SIDES } from '../landmarks.ts';
 import type { Viewer } from '../wasm/page.js';
 
-/** Samples a pixel: four, but one where a processor draws in place of a graphics card. */
+/** The samples per pixel: four, or one where a processor draws instead of a graphics card. */
 export function samplesOf(): number {
   const gl = document.createElement('canvas').getContext('webgl2');
   if (gl === null) {
@@ -14,11 +14,11 @@ export function samplesOf(): number {
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name)) ? 1 : 4;
 }
 
-/** What every browser with WebGL 2 that is met draws on, in pixels of a side. */
+/** The largest side of a canvas, in pixels, on which all browsers with WebGL 2 can draw. */
 const LARGEST_SIDE = 8192;
 
 /**
- * Gives a canvas `times` as many pixels a side as the screen shows, or as many as can be drawn; its size in pixels per CSS
+ * Gives a canvas `times` as many pixels on each side as the screen shows, or as many as can be drawn; returns the number of pixels per CSS
  * pixel.
  */
 export function fitCanvas(canvas: HTMLCanvasElement, times = 1): number {
@@ -33,7 +33,7 @@ export function fitCanvas(canvas: HTMLCanvasElement, times = 1): number {
   return ratio;
 }
 
-/** Tells a renderer its canvas's size, `times` that of the screen, and where the elements of both views lie in it. */
+/** Gives a renderer the size of its canvas, `times` that of the screen, and the boxes of both views in it. */
 export function fitViewer(
   viewer: Viewer,
   canvas: HTMLCanvasElement,
@@ -54,7 +54,7 @@ export function fitViewer(
   }
 }
 
-/** Calls back when an element changes its size, or the screen its pixels. */
+/** Calls back when an element changes its size, or the screen its resolution. */
 export function whenResized(elements: readonly HTMLElement[], callback: () => void): void {
   const observer = new ResizeObserver(callback);
   elements.forEach((element) => {

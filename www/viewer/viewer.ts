@@ -1,4 +1,4 @@
-/** Both views on one canvas: drawn on demand, kept in step with the state, rebuilt after a lost context. */
+/** Both views on one canvas. They are drawn on demand, follow the state, and are rebuilt after a lost context. */
 import { failureOf } from '../compute/messages.ts';
 import type { Way } from '../compute/saved-messages.ts';
 import { byId } from '../dom.ts';
@@ -35,20 +35,20 @@ import { Rings } from './rings.ts';
 import { decoded } from './decoded.ts';
 import { fitCanvas, fitViewer, samplesOf, whenResized } from './screen.ts';
 
-/** What the views tell the page. */
+/** The listener of the views. */
 export interface ViewListener {
   dispatch(event: Event): void;
   failed(sentence: string): void;
-  /** The views cannot be drawn, for this reason, or can again. */
+  /** Called when the views cannot be drawn, with the reason, or with `null` when they can again. */
   undrawn(sentence: string | null): void;
-  /** What the map says of the place under the mouse; `null` when the mouse has left. */
+  /** Called with the map at the place under the mouse; `null` when the mouse has left. */
   probed(probe: Probe | null): void;
 }
 
-/** How far from the middle a pin is still in sight, as a share of the way to the edge. */
+/** How far from the middle a pin counts as in sight, as a share of the way to the edge. */
 const IN_SIGHT = 0.95;
 
-/** A camera has come to rest when it has not moved for this time, in ms. */
+/** The time without a move after which a camera counts as at rest, in ms. */
 const REST = 400;
 
 /** The views of the page. */
@@ -65,19 +65,19 @@ export class Views {
   #viewer: Viewer | null = null;
   #state: State;
   #frame = 0;
-  /** A frame is being made: what changes now is in it. */
+  /** Whether a frame is being made, which will include changes that are made now. */
   #drawing = false;
   #resized = true;
   #started = false;
   #lost = false;
-  /** Where the cameras were when the page was last told. */
+  /** The cameras that the page was last given. */
   #told: [Camera | null, Camera | null] = [null, null];
   #rest = 0;
   #preparing = 0;
   #isPreparing = false;
-  /** Who hears that a camera has turned. */
+  /** The listeners to turns of the cameras. */
   readonly #turned = new Set<() => void>();
-  /** How the cameras were turned when that was last told. */
+  /** The orientations of the cameras at the last call of these listeners. */
   #toldTurns = '';
 
   constructor(state: State, listener: ViewListener) {
@@ -122,7 +122,7 @@ export class Views {
     this.#listenToWindow();
   }
 
-  /** Makes the renderer; says a sentence where there is none. */
+  /** Makes the renderer; shows a sentence where that fails. */
   async start(): Promise<void> {
     this.#started = true;
     if (!this.#lost) {
@@ -137,14 +137,14 @@ export class Views {
     });
   }
 
-  /** From now on a map's points go this way to the target's shape. */
+  /** Lets the points of a map move on this way to the target's shape from now on. */
   takeWay(output: Result['output'], way: Way): void {
     this.#with((viewer) => {
       this.#picture.takeWay(viewer, output, way);
     });
   }
 
-  /** Follows the state. */
+  /** Brings the views in line with the state. */
   sync(state: State, previous: State): void {
     this.#state = state;
     if (this.#viewer !== null && !this.#lost) {
@@ -152,21 +152,21 @@ export class Views {
     }
   }
 
-  /** Brings the whole mesh into a view; the direction stays. */
+  /** Shows the whole mesh in a view; the direction stays. */
   fit(side: Side | 'both'): void {
     this.#command(side, (each) => {
       this.#cameras.fit(each);
     });
   }
 
-  /** The first look. */
+  /** Goes back to the first position. */
   reset(side: Side | 'both' = 'both'): void {
     this.#command(side, (each) => {
       this.#cameras.reset(each);
     });
   }
 
-  /** Looks at the whole mesh from one of six sides. */
+  /** Shows the whole mesh from one of six sides. */
   lookFrom(side: Side | 'both', from: LookFrom): void {
     this.#command(side, (each) => {
       this.#cameras.lookFrom(each, from);
@@ -187,12 +187,12 @@ export class Views {
     });
   }
 
-  /** The axis of a mesh that seems to point up by its shape, to be offered; `null` where the shape does not tell. */
+  /** The axis of a mesh that seems to point up by its shape, to be offered; `null` where the shape does not show it. */
   proposedUp(side: Side): Axis | null {
     return (this.#viewer?.proposedUp(side) as Axis | undefined) ?? null;
   }
 
-  /** Turns a view to a point and comes near. */
+  /** Turns a view to a point and moves near it. */
   lookAt(side: Side, point: SurfacePoint): void {
     this.#cameras.face(side, JSON.stringify(point));
     this.#moved();
@@ -215,7 +215,7 @@ export class Views {
     }
   }
 
-  /** Asks the map about a point, and marks it and its partner with rings until the mouse moves; `null` without a map. */
+  /** Asks the map about a point, and marks the point and its partner with rings until the mouse moves; `null` without a map. */
   ask(side: Side, point: SurfacePoint): Probe | null {
     let probe: Probe | null = null;
     this.#with((viewer) => {
@@ -224,7 +224,7 @@ export class Views {
     return probe;
   }
 
-  /** Where the map takes a point of a side on the other one; `null` without a map, and where no landmark can be. */
+  /** The image of a point of a side on the other side; `null` without a map, and where no landmark can be placed. */
   imageOf(side: Side, point: SurfacePoint): SurfacePoint | null {
     let image: string | undefined;
     this.#with((viewer) => {
@@ -233,7 +233,7 @@ export class Views {
     return image === undefined ? null : (JSON.parse(image) as SurfacePoint);
   }
 
-  /** What lies across the plane of a side from a point; `null` without a plane, and where no landmark can be. */
+  /** The mirror image of a point across the plane of its side; `null` without a plane, and where no landmark can be placed. */
   across(side: Side, point: SurfacePoint): Across | null {
     let found: string | undefined;
     this.#with((viewer) => {
@@ -246,7 +246,7 @@ export class Views {
     return { ...across, pair: near === null ? null : (this.#state.pairs[near]?.id ?? null) };
   }
 
-  /** Turns a view to a proposed place that is not seen: behind the body, or beyond the view. */
+  /** Turns a view to a proposed place that is out of sight, behind the body or beyond the view. */
   bringIntoSight({ id, side, point }: Proposal): void {
     const index = this.#state.pairs.findIndex((pair) => pair.id === id);
     const [x = 0, y = 0, visible = 0] = this.#viewer?.labels(side).subarray(3 * index) ?? [];
@@ -255,17 +255,17 @@ export class Views {
     }
   }
 
-  /** From now on `heard` hears when a camera has turned; the returned function ends it. */
+  /** Calls `heard` whenever a camera has turned, until the returned function is called. */
   whenTurned(heard: () => void): () => void {
     this.#turned.add(heard);
-    // The next frame tells how they are turned to begin with.
+    // The next frame then reports the present orientations.
     this.#toldTurns = '';
     return () => {
       this.#turned.delete(heard);
     };
   }
 
-  /** From now on patches light up under the mouse; the returned function ends it. */
+  /** Lets patches light up under the mouse, until the returned function is called. */
   openBase(): () => void {
     this.#picture.wantsPatches = true;
     return () => {
@@ -275,39 +275,39 @@ export class Views {
     };
   }
 
-  /** How the camera of a side is turned; `null` without a renderer. */
+  /** The axes of the camera of a side; `null` without a renderer. */
   axes(side: Side): Axes | null {
     return this.#viewer === null || this.#lost ? null : axesOf(this.#viewer.axes(side));
   }
 
-  /** Turns a view as a drag does, in units of the view's height, y up. */
+  /** Turns a view like a drag, in units of the view's height, y up. */
   orbit(side: Side, dx: number, dy: number, way: 'smoothly' | 'at once'): void {
     this.#cameras.orbit(side, dx, dy, way);
     this.#moved(side);
   }
 
-  /** Shows the flows on both meshes; `null` for the meshes as before. */
+  /** Shows the flows on both meshes; `null` shows the meshes as they were before. */
   showFlow(frame: FlowFrame | null): void {
     this.#with((viewer) => {
       this.#picture.showFlow(viewer, frame);
     });
   }
 
-  /** Marks the triangles that stopped a flow; `null` for the meshes as before. */
+  /** Marks the triangles that stopped a flow; `null` shows the meshes as they were before. */
   markStops(stops: Stops | null): void {
     this.#with((viewer) => {
       showStops(viewer, this.#state, stops);
     });
   }
 
-  /** Shows both meshes on their way to their landmarks; `null` for the meshes as before. */
+  /** Shows a stage of the simplification of both meshes; `null` shows the meshes as they were before. */
   showStage(frame: StageFrame | null): void {
     this.#with((viewer) => {
       showStage(viewer, frame);
     });
   }
 
-  /** Lights up what a part of the base domain is on both meshes. */
+  /** Lights up a part of the base domain on both meshes. */
   light(part: BasePart | null): void {
     this.#with((viewer) => {
       this.#picture.light(viewer, part);
@@ -418,12 +418,12 @@ export class Views {
     this.#prepare();
   }
 
-  /** Lays the pictures of a mesh on it, each once it is read. */
+  /** Lays the pictures of a mesh on it, each once it is decoded. */
   async #layPictures(viewer: Viewer, side: Side, file: MeshFile): Promise<void> {
     const count = file.mesh.pictureCount;
     let unread = 0;
     for (let number = 0; number < count; number++) {
-      // Meanwhile another mesh may have come, or another renderer.
+      // Another mesh may have come since, or another renderer.
       if (this.#viewer !== viewer || this.#state.meshes[side] !== file) {
         return;
       }
@@ -441,7 +441,7 @@ export class Views {
     }
   }
 
-  /** Has large meshes made ready to be pointed at, bit by bit, so that frames go on. */
+  /** Prepares large meshes for picking, part by part, so that frames are drawn meanwhile. */
   #prepare(): void {
     clearTimeout(this.#preparing);
     this.#preparing = window.setTimeout(() => {
@@ -452,14 +452,14 @@ export class Views {
         this.#isPreparing = true;
         this.#prepare();
       } else if (this.#isPreparing) {
-        // Now it is known which pins the body hides.
+        // From now on it is known which pins the body hides.
         this.#isPreparing = false;
         this.#requestFrame();
       }
     }, 0);
   }
 
-  /** A mesh that comes stands as it should at once; one that is there is turned before one's eyes. */
+  /** Sets the axis that points up: at once for a mesh that has just come, in a visible turn for one that is there. */
   #setUp(previous: State | null): void {
     const { up, meshes } = this.#state;
     for (const side of SIDES) {
@@ -472,7 +472,7 @@ export class Views {
     }
   }
 
-  /** Cameras that somebody else has put somewhere. */
+  /** Moves the cameras that the state has moved. */
   #setCameras(): void {
     for (const side of SIDES) {
       const camera = this.#state.ui.cameras[side];
@@ -532,7 +532,7 @@ export class Views {
     }
   }
 
-  /** Calls the renderer and asks for a frame; what it throws becomes a sentence. */
+  /** Calls a function with the renderer, and asks for a frame; an error of the renderer becomes a sentence. */
   #with(action: (viewer: Viewer) => void): void {
     if (this.#viewer === null || this.#lost) {
       return;
@@ -560,7 +560,7 @@ export class Views {
     }
   }
 
-  /** Draws a frame; whether another one is to follow. */
+  /** Draws a frame; returns whether another one is to follow. */
   #draw(now: number): boolean {
     const viewer = this.#viewer;
     if (viewer === null || this.#lost) {
@@ -584,7 +584,7 @@ export class Views {
     }
   }
 
-  /** Pictures of the panel turn with the views. */
+  /** Calls the listeners to turns, such as pictures in the panel that turn with the views. */
   #tellTurns(viewer: Viewer): void {
     if (this.#turned.size === 0) {
       return;
@@ -607,7 +607,7 @@ export class Views {
     }
   }
 
-  /** Cameras have moved: where the map links them, the other one follows; the page is told when they rest. */
+  /** Called when cameras have moved. Where the map links them the other camera follows, and the page is informed when they rest. */
   #moved(leader?: Side): void {
     if (leader !== undefined && this.#state.ui.link === 'map') {
       this.#with((viewer) => {
@@ -636,7 +636,7 @@ export class Views {
     }
   }
 
-  /** The views as they are, with `times` as many pixels a side as on the screen, as a PNG; `null` without a renderer. */
+  /** The views as they are, with `times` as many pixels on each side as on the screen, as a PNG; `null` without a renderer. */
   async picture(times: number): Promise<Blob | null> {
     const viewer = this.#viewer;
     if (viewer === null || this.#lost) {
@@ -644,7 +644,7 @@ export class Views {
     }
     fitViewer(viewer, this.#canvas, this.#elements, times);
     viewer.render(performance.now());
-    // The browser takes the pixels at once, before the next frame has the screen's size again, and packs them later.
+    // The browser reads the pixels at once, before the next frame has the screen's size again, and encodes them later.
     const picture = new Promise<Blob | null>((resolve) => {
       this.#canvas.toBlob(resolve, 'image/png');
     });
@@ -653,7 +653,7 @@ export class Views {
     return picture;
   }
 
-  /** Says what the views show: while two maps are compared both show the source. */
+  /** Gives the views their names; while two maps are compared both show the source. */
   #nameViews(): void {
     const second = otherMap(this.#state) === null ? 'Target' : 'Second source';
     this.#elements[0].setAttribute('aria-label', `Source view. ${HELP}`);
@@ -686,7 +686,7 @@ export class Views {
     });
   }
 
-  /** Makes a renderer; where that fails a sentence is said. */
+  /** Makes a renderer; shows a sentence where that fails. */
   async #make(otherwise: string): Promise<'made' | 'failed'> {
     fitCanvas(this.#canvas);
     try {
@@ -701,7 +701,7 @@ export class Views {
     }
   }
 
-  /** A new renderer in place of the one whose context was lost. */
+  /** Makes a new renderer in place of the one whose context was lost. */
   async #rebuild(): Promise<void> {
     const old = this.#viewer;
     this.#viewer = null;

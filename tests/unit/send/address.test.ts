@@ -1,4 +1,4 @@
-/** Addresses in links: which are taken, and what is shown of them. */
+/** Addresses in links: which are accepted, and what is shown of them. */
 import { describe, expect, test } from 'vitest';
 import { addressOf, LONGEST_ADDRESS, shownName } from '../../../www/send/address.ts';
 

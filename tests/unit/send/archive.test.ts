@@ -1,4 +1,4 @@
-/** Archives: what is written comes back, and what is hostile does not. */
+/** Archives: what is written can be read again, and hostile archives are refused. */
 import { zipSync } from 'fflate';
 import { describe, expect, test } from 'vitest';
 import { ArchiveRefused, isArchive, LARGEST_CONTENT, MOST_ENTRIES, readArchive, writeArchive } from '../../../www/send/archive.ts';
@@ -12,7 +12,7 @@ function faultOf(work: () => unknown): unknown {
   }
 }
 
-/** Has every entry of the archive's directory say that its file has this size. */
+/** An archive whose directory gives this size for every file. */
 function withSizes(archive: Uint8Array, size: number): Uint8Array<ArrayBuffer> {
   const bytes = Uint8Array.from(archive);
   const view = new DataView(bytes.buffer);

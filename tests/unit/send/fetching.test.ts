@@ -1,11 +1,11 @@
-/** Files fetched from other hosts: under which terms, and how each fault ends. */
+/** Files fetched from other hosts: the terms of the request, and the end of each fault. */
 import { afterEach, describe, expect, test, vi } from 'vitest';
 import type { Address } from '../../../www/send/address.ts';
 import { fetchBytes, FetchRefused, LARGEST_FETCHED } from '../../../www/send/fetching.ts';
 
 const CAT: Address = { url: 'https://data.example/cat.obj', name: 'cat.obj', host: 'data.example' };
 
-/** A server that gives this answer and notes what it was asked. */
+/** A server that gives this answer and records the requests. */
 function answering(answer: () => Response | Promise<Response>): { readonly asked: RequestInit[] } {
   const asked: RequestInit[] = [];
   vi.stubGlobal('fetch', async (_: string, options: RequestInit) => {
@@ -122,7 +122,7 @@ describe('a file', () => {
     given.progress.mockImplementation(() => {
       given.stop();
     });
-    // A body of its own does not hear of the signal; the browser's does.
+    // Unlike the browser's, this body is not connected to the signal by itself.
     vi.stubGlobal('fetch', async (_: string, { signal }: RequestInit) => {
       const stream = new ReadableStream<Uint8Array>({
         pull(controller) {

@@ -1,4 +1,4 @@
-/** Links: all that is said comes back, old ones are read, and nothing hostile gets through. */
+/** Links: the whole content comes back, old links are read, and hostile ones are refused. */
 import { deflateSync } from 'fflate';
 import { describe, expect, test } from 'vitest';
 import { toBase64Url } from '../../../www/send/base64url.ts';
@@ -19,7 +19,7 @@ function linkAt(hash: string): Link {
   return reading.link;
 }
 
-/** What is read of a link of version 1 that holds this. */
+/** The result of reading a link of version 1 with this JSON. */
 function readJson(value: unknown): Reading {
   return readLink(`#s=1.${pack(JSON.stringify(value))}`, BASE);
 }
@@ -48,7 +48,7 @@ describe('a link', () => {
     for (let seed = 1; seed <= 30; seed++) {
       const work = clickedWork(new Random(seed), 50);
       const link: Link = { demo: null, files: [localFile('a-cat-with-a-long-name.off'), localFile('lion.off', 'x')], landmarks: null, work };
-      // The hash of a file looks like anything.
+      // The hash of a file may be any bytes.
       const random = new Random(seed + 100);
       const hashes = link.files.map((file) => ({ ...file, hash: toBase64Url(random.bytes(32)) }) as Link['files'][0]);
       const sent: Link = { ...link, files: [hashes[0] ?? null, hashes[1] ?? null] };
@@ -57,7 +57,7 @@ describe('a link', () => {
       lengths.push(address.length);
     }
     const longest = Math.max(...lengths);
-    // 1591 to 1618 when it was written, 30 more with a texture that was turned: there is room for labels.
+    // The lengths were 1591 to 1618 when this was written, and 30 more with a texture that was turned; this leaves room for labels.
     expect(SAFE_LENGTH).toBe(2000);
     expect(longest).toBeLessThan(1680);
   });
@@ -84,7 +84,7 @@ describe('a link', () => {
 });
 
 describe('a link of version 1 from another day', () => {
-  // Written down on the day that version 1 was made: it must be read for ever.
+  // This link was written down on the day on which version 1 was made, and must stay readable for ever.
   const FIRST =
     '{"f":[["https://data.example/cat.obj"],["AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA","lion.off"]],"p":[[[7],1220245012],[[],[3,0.25,0.25,0.5]]],"i":[1,4],"n":["nose",""],"x":[1],"g":"same","u":["y","-z"],"o":{"method":"relaxed","base":"joint","cones":"base-domain","class":"best","ownCones":null},"c":[[1,2],null],"s":{"surface":"shaded","patchLines":true,"cones":true,"markers":true}}';
 
@@ -264,7 +264,7 @@ describe('a hostile link', () => {
       const kind = reading.kind === 'refused' ? reading.fault : reading.kind;
       kinds.set(kind, (kinds.get(kind) ?? 0) + 1);
       if (reading.kind === 'link') {
-        // What was taken for a link is whole: it can be written and read again.
+        // A link that was accepted is complete: it can be written and read again.
         const again = writeLink(reading.link);
         expect(writeLink(linkAt(again))).toBe(again);
       }
@@ -280,10 +280,10 @@ describe('a hostile link', () => {
       return random.unit() < 0.1 ? characters.slice(0, random.below(characters.length + 1)).join('') : characters.join('');
     };
     for (let round = 0; round < 10_000; round++) {
-      // Half of them are damaged on their way, half are made so.
+      // Half of the links are damaged after packing, the other half before.
       count(round % 2 === 0 ? readLink(mutated(good), BASE) : readLink(`#s=1.${pack(mutated(text))}`, BASE));
     }
-    // Damage is met, and some of it leaves a sound document with another number in it.
+    // Damage is found; some damaged documents are still valid, with another number in them.
     expect(kinds.get('damaged')).toBeGreaterThan(3000);
     expect(kinds.get('link')).toBeGreaterThan(300);
   });

@@ -1,4 +1,4 @@
-/** Text packed into an address, and what comes back of good and of damaged ones. */
+/** Text packed into an address, and the result of unpacking good and damaged texts. */
 import { deflateSync } from 'fflate';
 import { describe, expect, test } from 'vitest';
 import { fromBase64Url, toBase64Url } from '../../../www/send/base64url.ts';
@@ -38,7 +38,7 @@ describe('packing', () => {
     const text = 'a'.repeat(1000);
     expect(unpack(pack(text), 1000)).toBe(text);
     expect(unpack(pack(text), 999)).toBeNull();
-    // 48 kB that would become 48 MB.
+    // 48 kB that would unpack to 48 MB.
     const bomb = toBase64Url(deflateSync(new Uint8Array(48_000_000)));
     expect(bomb.length).toBeLessThan(65_536);
     const before = process.memoryUsage().arrayBuffers;

@@ -1,4 +1,4 @@
-/** Project files: all that is saved comes back, and damaged or hostile ones are told. */
+/** Project files: everything that is saved comes back, and damaged or hostile files are refused by name. */
 import { describe, expect, test } from 'vitest';
 import { PROJECT_REFUSED } from '../../../www/messages.ts';
 import type { Archiver, Entries } from '../../../www/send/archive.ts';
@@ -10,7 +10,7 @@ import { anyWork } from './works.ts';
 
 const HERE: Archiver = {
   write: async (entries) => Promise.resolve(writeArchive(entries)),
-  // As a worker does it, so that what is thrown arrives in a promise.
+  // As in a worker, errors arrive in a promise.
   read: async (bytes, names) => Promise.resolve().then(() => readArchive(bytes, names)),
 };
 const LANDMARKS = '{"pairs":[]}';
@@ -47,14 +47,14 @@ const CAT_LION: Project = {
   result: { map: new Uint8Array([1, 2, 3]), report: '{}' },
 };
 
-/** What comes of the project of cat and lion when its files were changed so. */
+/** The result of reading the project of cat and lion after a change of its files. */
 async function changed(change: (entries: Record<string, Uint8Array>) => void): Promise<unknown> {
   const entries = { ...readArchive(await saved(CAT_LION), FILES) };
   change(entries);
   return readProject(writeArchive(entries), HERE).catch((thrown: unknown) => (thrown instanceof ProjectRefused ? thrown.fault : thrown));
 }
 
-/** Changes the manifest. */
+/** A change of the manifest. */
 function withManifest(change: (manifest: Record<string, unknown>) => unknown): (entries: Record<string, Uint8Array>) => void {
   return (entries) => {
     const manifest = JSON.parse(new TextDecoder().decode(entries['conemap.json'])) as Record<string, unknown>;

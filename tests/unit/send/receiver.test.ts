@@ -1,4 +1,4 @@
-/** Links on their way in: nothing is fetched unasked, and files by hand are told from others. */
+/** Links that are received: nothing is fetched unasked, and files given by hand are recognised. */
 import { afterEach, describe, expect, test, vi } from 'vitest';
 import { hashOf } from '../../../www/send/hash.ts';
 import type { Link, LinkedFile } from '../../../www/send/link.ts';
@@ -25,7 +25,7 @@ function link(source: LinkedFile | null, target: LinkedFile | null, landmarks: L
   return { demo: null, files: [source, target], landmarks, work: null };
 }
 
-/** A receiver with all that it said. */
+/** A receiver, with records of everything that it reports. */
 function listened(): { receiver: Receiver; said: Receiving[]; delivered: Delivery[]; failed: string[] } {
   const said: Receiving[] = [];
   const delivered: Delivery[] = [];
@@ -38,7 +38,7 @@ function listened(): { receiver: Receiver; said: Receiving[]; delivered: Deliver
   return { receiver, said, delivered, failed };
 }
 
-/** A net on which every address gives its own text, and what was asked of it. */
+/** A network on which every address gives its own text, with a record of the requests. */
 function net(answer: (url: string) => Response | Promise<Response> = (url) => new Response(`bytes of ${url}`)): string[] {
   const asked: string[] = [];
   vi.stubGlobal('fetch', async (url: string) => {

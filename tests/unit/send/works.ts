@@ -1,4 +1,4 @@
-/** Works to send: small ones by hand, and any kind at random. */
+/** Works to send: small ones written by hand, and random ones of any kind. */
 import type { SurfacePoint } from '../../../www/landmarks.ts';
 import { rounded } from '../../../www/landmarks.ts';
 import { BASES, BORDERS, CLASSES, CONES, METHODS } from '../../../www/options.ts';
@@ -13,7 +13,7 @@ export const BASE = new URL('https://maps.example/conemap/');
 
 const AXES = wordsOf<Axis>({ x: true, '-x': true, y: true, '-y': true, z: true, '-z': true });
 
-/** Weights of a place in a face, with a sum of 1 up to rounding. */
+/** The weights of a place in a face, whose sum is 1 up to rounding. */
 function weights(random: Random): [number, number, number] {
   const [a, b] = [random.unit(), random.unit()];
   const [first, second] = a + b > 1 ? [1 - a, 1 - b] : [a, b];
@@ -53,7 +53,7 @@ function anyPairs(random: Random): SentPair[] {
   });
 }
 
-/** A camera whose numbers are as a link keeps them. */
+/** A camera whose numbers are rounded as in a link. */
 function camera(random: Random): number[] {
   return Array.from({ length: 10 }, () => Number((random.unit() * 4 - 2).toPrecision(5)));
 }
@@ -106,7 +106,7 @@ export function anyLink(random: Random): Link {
   };
 }
 
-/** Pairs clicked in the page, on meshes of half a million faces. */
+/** Work with pairs that were clicked in the page, on meshes of half a million faces. */
 export function clickedWork(random: Random, pairs: number): SentWork {
   return {
     ...anyWork(random),

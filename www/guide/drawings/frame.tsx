@@ -1,9 +1,9 @@
-/** What the guide's drawings are made of: points with y upwards on a sheet, and a slider beneath. */
+/** The elements of the guide's drawings: shapes, paths and words on a sheet with y upwards, and a slider beneath it. */
 import type { ComponentChildren, VNode } from 'preact';
 import { useId } from 'preact/hooks';
 import type { Point } from '../geometry.ts';
 
-/** The sheet's size. */
+/** The sheet's size, in the drawing's own units. */
 export const WIDTH = 280;
 export const HEIGHT = 168;
 
@@ -29,7 +29,7 @@ export function Ring({ at, radius, look }: { readonly at: Point; readonly radius
   return <circle class={look} cx={at.x.toFixed(2)} cy={(HEIGHT - at.y).toFixed(2)} r={radius.toFixed(2)} />;
 }
 
-/** Words on the sheet, their middle at a point. */
+/** Words on the sheet, centred at a point. */
 export function Words({ at, children }: { readonly at: Point; readonly children: string }): VNode {
   return (
     <text x={at.x.toFixed(2)} y={(HEIGHT - at.y).toFixed(2)} text-anchor="middle">
@@ -39,7 +39,7 @@ export function Words({ at, children }: { readonly at: Point; readonly children:
 }
 
 interface DrawingProps {
-  /** What is to be seen, for who does not see it. */
+  /** What the drawing shows, for readers who do not see it. */
   readonly says: string;
   readonly children: ComponentChildren;
 }
@@ -56,7 +56,7 @@ export function Drawing({ says, children }: DrawingProps): VNode {
 interface SliderProps {
   readonly label: string;
   readonly value: number;
-  /** The least and the largest value, and how far apart the ones between are. */
+  /** The least value, the largest value and the step between values. */
   readonly range: readonly [number, number, number];
   /** The value in words. */
   readonly text: string;

@@ -1,4 +1,4 @@
-/** Drawings of triangulations: a collapse, the base domain, the star of a vertex, two meshes over each other, a flip. */
+/** Drawings of triangulations: a collapse, the base domain, the star of a vertex, the overlay of two meshes, a flip. */
 import type { VNode } from 'preact';
 import { useState } from 'preact/hooks';
 import type { Point } from '../geometry.ts';
@@ -13,10 +13,10 @@ function at(points: readonly Point[], index: number): Point {
 
 const KEPT = point(110, 84);
 const GOING = point(170, 84);
-/** The common neighbours of both, then those of each alone, counter-clockwise. */
+/** The neighbours of both ends of the edge, then those of each end alone, counter-clockwise. */
 const AROUND = [point(140, 140), point(80, 144), point(44, 84), point(82, 26), point(140, 28), point(206, 30), point(236, 86), point(200, 142)];
 
-/** Half the way up the slider the edge is half as long, at its end it is gone with two triangles. */
+/** A collapse: the slider shortens an edge, and at its end the edge is gone with two triangles. */
 export function Collapse(): VNode {
   const [share, setShare] = useState(0.4);
   const moved = between(GOING, KEPT, share);
@@ -48,7 +48,7 @@ export function Collapse(): VNode {
 
 const OUTER = [point(20, 14), point(260, 14), point(140, 158)] as const;
 
-/** A triangulation grows by a landmark at a time. */
+/** The base domain, which grows by one landmark at a time. */
 export function BaseDomain(): VNode {
   const [count, setCount] = useState(7);
   const { points, faces } = stacked(OUTER, count);
@@ -70,7 +70,7 @@ export function BaseDomain(): VNode {
 
 const STAR = [point(40, 24), point(236, 20), point(246, 138), point(150, 96), point(44, 146)];
 
-/** A vertex moves through its star: it may stay wherever it sees every edge from its left. */
+/** A vertex that moves in its star: it is allowed wherever it sees every edge of the star from the edge's left. */
 export function Star(): VNode {
   const [x, setX] = useState(120);
   const vertex = point(x, 74);
@@ -102,7 +102,7 @@ function fan(centre: Point): readonly (readonly Point[])[] {
 export function Overlay(): VNode {
   const [x, setX] = useState(96);
   const [source, target] = [fan(point(150, 110)), fan(point(x, 62))];
-  // Neighbours have different looks: across an edge of either mesh one of the two numbers is odd where it was even.
+  // Neighbouring pieces get different looks: crossing an edge of either mesh changes the parity of i + k.
   const pieces = source
     .flatMap((a, i) => target.map((b, k) => ({ corners: intersection(a, b), look: (i + k) % 2 === 0 ? 'piece' : 'piece other' })))
     .filter(({ corners }) => area(corners) > 1e-9 * SQUARE_AREA);
@@ -128,7 +128,7 @@ export function Overlay(): VNode {
 
 const [LEFT, RIGHT, TOP] = [point(70, 80), point(214, 88), point(136, 152)];
 
-/** The edge of two triangles is flipped once the opposite corner comes into the circle of the other three. */
+/** A flip: the edge of two triangles is flipped once the opposite corner lies in the circle through the other three. */
 export function Flip(): VNode {
   const [depth, setDepth] = useState(40);
   const under = point(150, 84 - depth);

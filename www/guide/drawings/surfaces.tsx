@@ -44,7 +44,7 @@ function Limb({ left, around }: { readonly left: number; readonly around: boolea
   );
 }
 
-/** Three points around a limb, and three along it. */
+/** Two limbs: one with three landmarks around it, one with three along it. */
 export function LimbLandmarks(): VNode {
   return (
     <figure>
@@ -59,7 +59,7 @@ export function LimbLandmarks(): VNode {
 const RIM = { inner: 20, outer: 78 };
 const STARTS = [0, 1, 2].map((k) => Math.PI / 2 + (k * TAU) / 3);
 
-/** Paths from the end of a limb, seen from its tip, to its root, with twists between. */
+/** Paths on a limb, seen from its tip, from the end to the root, twisted by a number of turns. */
 export function Twist(): VNode {
   const [turns, setTurns] = useState(1);
   const paths = STARTS.map((start) => spiral(RIM.inner, RIM.outer, start, turns, 160).map(({ x, y }) => point(x + MIDDLE.x, y + MIDDLE.y)));
@@ -85,13 +85,13 @@ export function Twist(): VNode {
 
 const CONE = { flat: point(84, 84), radius: 74, side: 70 };
 
-/** A cone cut open: what is missing from the full disc is its curvature. */
+/** A cone cut open: its curvature is the angle that is missing from the full disc. */
 export function Cone(): VNode {
   const [degrees, setDegrees] = useState(250);
   const theta = (degrees * Math.PI) / 180;
   const start = (TAU - theta) / 2;
   const sector = [CONE.flat, ...arc(CONE.flat, CONE.radius, start, TAU - start)];
-  // A circle around the apex has theta times its distance; so the cone's slope follows from its angle.
+  // A circle around the apex has the length theta times its distance from the apex, and so the cone's slope follows from theta.
   const slope = theta / TAU;
   const foot = point(222, 40);
   const [across, height] = [CONE.side * slope, CONE.side * Math.sqrt(Math.max(0, 1 - slope * slope))];
@@ -117,7 +117,7 @@ export function Cone(): VNode {
   );
 }
 
-/** A circle becomes an ellipse. */
+/** A circle that becomes an ellipse under a linear map. */
 export function Distorted(): VNode {
   const [s1, setFirst] = useState(1.4);
   const [s2, setSecond] = useState(0.8);
@@ -139,7 +139,7 @@ export function Distorted(): VNode {
   );
 }
 
-/** Five positive triangles around a vertex, once around or twice. */
+/** Five positively oriented triangles around a vertex, which go around it once or twice. */
 export function Winding(): VNode {
   const [times, setTimes] = useState(2);
   const corners = Array.from({ length: 5 }, (_, k) => polar(Math.PI / 2 + (k * times * TAU) / 5, 76, point(MIDDLE.x, 78)));
@@ -162,7 +162,7 @@ export function Winding(): VNode {
 
 const RADII = [46, 34] as const;
 
-/** Two circles at the ends of an edge, by their inversive distance. */
+/** Two circles at the ends of an edge, at a given inversive distance. */
 export function Circles(): VNode {
   const [eta, setEta] = useState(1.3);
   const length = edgeLength(RADII, eta);
