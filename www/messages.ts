@@ -78,7 +78,7 @@ export function pairName({ number, label }: Pick<Pair, 'number' | 'label'>): str
 export function findingSentence(finding: Finding, name: (order: number) => string): string {
   const [first, second] = finding.pairs;
   if (finding.kind === 'swapped' && first !== undefined && second !== undefined) {
-    return `The targets of the pairs ${name(first)} and ${name(second)} look swapped: exchanged, they lie among the others as on the source. Exchange them.`;
+    return `The targets of the pairs ${name(first)} and ${name(second)} look swapped: exchanged with each other they would fit the source. Exchange them.`;
   }
   if (finding.kind === 'misplaced' && first !== undefined && finding.near !== null) {
     return `Pair ${name(first)} does not fit the others: its target is expected elsewhere, near that of pair ${name(finding.near)}.`;
@@ -185,7 +185,7 @@ export const SENTENCES = {
   noLink: 'No link can be made: it would be too long, or the page was not opened by https, which links to your own files need. Save the project file instead: it holds everything.',
   aboutProject: 'One file with both meshes, the landmarks, the options, the views and the map; drop it on the page to go on',
   newVersion: 'A new version of this page is ready.',
-  exchangedMeshes: 'its source is the target on the page and the other way round: swap source and target first.',
+  exchangedMeshes: 'its source is the page’s target, and its target is the page’s source: swap source and target first.',
   oneMap: 'Drop one map at a time.',
   mapGone: 'The meshes of this map have gone from the page, so it was not opened.',
   noReport: 'the map file, section "report": it is not the report of a run.',
@@ -218,11 +218,11 @@ export function farPartner(side: 0 | 1, distance: number): string {
 export function planeSentence(name: string, { misfit, fits }: { readonly misfit: number; readonly fits: boolean }, isChosen: boolean): string {
   const off = ofItsSize(misfit);
   if (isChosen) {
-    return `By this plane the mirror image of the ${name} is ${off} off on average.`;
+    return `Mirrored at this plane, the ${name} is ${off} off on average.`;
   }
   return fits
     ? `The ${name} is symmetric: its mirror image is ${off} off on average.`
-    : `The ${name} has no plane that mirrors it: by the best one its mirror image is ${off} off on average. Choose a plane, or place both sides yourself.`;
+    : `The ${name} has no plane of symmetry: its mirror image at the best plane is ${off} off on average. Choose a plane, or place the landmarks of both sides yourself.`;
 }
 
 /** A sentence about what has changed since the map was made. */
@@ -316,7 +316,7 @@ export function mapWaits(name: string, missing: readonly { readonly side: 0 | 1;
 
 /** A sentence about a map that was opened from a file. */
 export function reopenedSentence(name: string): string {
-  return `Opened from ${name}: nothing was computed. Its pieces were checked as a map of these meshes, and measured anew.`;
+  return `Opened from ${name}: nothing was computed. The program checked that its pieces are a map of these meshes, and measured its distortion anew.`;
 }
 
 /** Several names joined for a sentence. */
@@ -397,7 +397,7 @@ export function prospectSentence(prospect: {
 /** Why a project file is not opened. */
 export const PROJECT_REFUSED = {
   'no-archive': 'this is no project file, or it is damaged.',
-  'no-project': 'this archive is no project: it has no conemap.json that says so.',
+  'no-project': 'this archive is no project: it has no file conemap.json.',
   newer: 'this project was saved by a newer version of this page. Reload the page to get that version.',
   damaged: 'this project is damaged: its conemap.json does not say what it should.',
   'mesh-missing': 'this project is damaged: it lacks a mesh that it names.',

@@ -79,8 +79,8 @@ impl Finding {
                     .into()
             }
             Self::Swapped { pairs: [a, b], .. } => format!(
-                "The targets of the pairs {} and {} look swapped: exchanged, they lie among the others as on the source. \
-                 Exchange them.",
+                "The targets of the pairs {} and {} look swapped: exchanged with each other they would fit the \
+                 source. Exchange them.",
                 name(a),
                 name(b)
             ),

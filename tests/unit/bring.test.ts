@@ -223,7 +223,7 @@ test('what files are taken for is said in a sentence', () => {
   expect(kindSentence(['skin.csv'], 'values', Array.from('abcdefgh'), 'source')).toContain('8 columns (a, b, c, d, e, f and 2 more)');
   expect(kindSentence(['belt.obj'], 'curves', [], 'source')).toBe('belt.obj: curves on the source.');
   expect(kindSentence(['skin.png'], 'texture', [], 'target')).toContain('over the source’s own texture coordinates');
-  expect(kindSentence(['a.obj', 'b.obj'], 'frames', [], 'target')).toBe('2 files: the target in other poses. The source moves likewise.');
+  expect(kindSentence(['a.obj', 'b.obj'], 'frames', [], 'target')).toBe('2 files: the target in other poses. The source moves in the same way.');
   expect(savedSentence('a.csv', 1)).toBe('Saved as a.csv.');
 });
 

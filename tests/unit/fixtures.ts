@@ -51,7 +51,7 @@ export const SWAPPED: Finding = {
 /** The same finding as a doubt of the page. */
 export const DOUBT: Doubt = {
   ...SWAPPED,
-  sentence: 'The targets of the pairs 1 and 2 look swapped: exchanged, they lie among the others as on the source. Exchange them.',
+  sentence: 'The targets of the pairs 1 and 2 look swapped: exchanged with each other they would fit the source. Exchange them.',
   ids: [1, 2],
 };
 const NOWHERE = { positions: new Float32Array(9) } as SideOutput;

@@ -127,7 +127,7 @@ test('a plane may be given, and a body without one says so', { tag: '@long' }, a
   await openStep(page, 'landmarks');
   const planes = page.getByRole('region', { name: 'Left and right' });
   await planes.getByRole('checkbox', { name: 'Left and right together' }).check();
-  await expect(planes.getByRole('status').last()).toHaveText(/^The target has no plane that mirrors it: by the best one its mirror image is 4\.\d % of its size off on average\./);
+  await expect(planes.getByRole('status').last()).toHaveText(/^The target has no plane of symmetry: its mirror image at the best plane is 4\.\d % of its size off on average\./);
   await planes.getByLabel('Target plane').selectOption({ label: 'Across its z axis' });
-  await expect(planes.getByRole('status').last()).toHaveText(/^By this plane the mirror image of the target is \d\.\d % of its size off on average\.$/);
+  await expect(planes.getByRole('status').last()).toHaveText(/^Mirrored at this plane, the target is \d\.\d % of its size off on average\.$/);
 });

@@ -39,7 +39,7 @@ export function kindSentence(names: readonly string[], kind: Kind, columns: read
     case 'texture':
       return `${what}: the ${giver}’s texture. It is baked over the ${receiverOf(giver)}’s own texture coordinates; both mesh files must have some.`;
     case 'frames':
-      return `${what}: the ${giver} in ${names.length === 1 ? 'another pose' : 'other poses'}. The ${receiverOf(giver)} moves likewise.`;
+      return `${what}: the ${giver} in ${names.length === 1 ? 'another pose' : 'other poses'}. The ${receiverOf(giver)} moves in the same way.`;
   }
 }
 
@@ -47,7 +47,7 @@ export const WORDS = {
   noMap: 'Once there is a map, what belongs to one mesh can be brought onto the other: values, curves, a texture, poses.',
   otherMeshes: 'The last map is of other meshes than those on the page. Make a map of these first.',
   noMapFile: 'Nothing can be brought across this map, since it has no map file: maps of the relaxed method have one, where neither mesh was repaired.',
-  noCore: 'The part of the program that does this has not come yet. Try again in a moment.',
+  noCore: 'The part of the program that does this is still being loaded. Try again in a moment.',
   mapChanged: 'The map on the page is another one now, so what was begun is left out. Bring it across again.',
   tooLarge: 'is larger than 1 GiB, more than the page can take.',
   tooMuch: 'These files are larger than 1 GiB together, more than the page can take. Bring fewer poses at once.',

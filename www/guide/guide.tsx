@@ -137,7 +137,7 @@ const WARNINGS: readonly (readonly [string, string])[] = [
 function Warnings(): VNode {
   return (
     <Section id="warnings">
-      <p>A warning stops nothing: it is said before or beside a whole map. A sentence in red says why there is no map.</p>
+      <p>A warning does not stop a run: it stands beside the map, or before it. A sentence in red says why there is no map.</p>
       <dl>
         {WARNINGS.map(([what, todo]) => (
           <div key={what}>

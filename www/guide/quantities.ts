@@ -32,7 +32,7 @@ export const QUANTITIES: readonly Quantity[] = [
   },
   {
     name: 'Coverage',
-    text: 'Where holes were closed: how much of each mesh’s skin has skin as its partner, and not a cap. The certificate is about the surfaces with their caps; all other numbers are those of skin on skin.',
+    text: 'Where holes were closed: how much of each mesh’s skin has skin as its partner, and not a cap. The certificate is about the surfaces with their caps; all other numbers are measured where skin lies on skin.',
     value: ({ coverage }) => (coverage === null ? null : `${percent(coverage.source)} of the source, ${percent(coverage.target)} of the target`),
   },
   {

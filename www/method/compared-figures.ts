@@ -27,11 +27,11 @@ export function figuresOf(report: Report): readonly Figure[] {
     { name: 'Log density', note: 'Mean logarithm of the distortion by area; 0 is an isometry', value: figure(distortion.mean_log) },
     {
       name: 'L2 stretch',
-      note: 'Of the target’s flat metric, which its checkerboard shows; 1 is an isometry',
+      note: 'The stretch of the target’s flat metric, which its checkerboard shows; 1 is an isometry',
       value: distortion.l2_stretch === null ? '–' : figure(distortion.l2_stretch),
     },
     { name: 'Mapped', note: 'Share of the source’s vertices that have an image', value: percent(1 - report.unmapped_share) },
-    { name: 'Newton steps', note: 'Of the flows of source and target to their flat metrics', value: stepsOf(report.cone_metric) },
+    { name: 'Newton steps', note: 'The Newton steps of the flows that bring source and target to their flat metrics', value: stepsOf(report.cone_metric) },
     { name: 'Converged', note: 'Whether both flows reached the cones that were asked for', value: haveConverged(report) ? 'yes' : 'no' },
   ];
 }

@@ -112,7 +112,7 @@ function ValueChoices({ desk, choices, columns }: PartOf & { readonly columns: r
       {choices.columns === 'own' && canOwn && <OwnColumns desk={desk} choices={choices} columns={columns} />}
       <Select
         label="Method"
-        title="How a value at a vertex is made of those of the other mesh"
+        title="How the value at a vertex is computed from the values of the other mesh"
         value={choices.method}
         choices={choicesOf(METHODS)}
         disabled={false}

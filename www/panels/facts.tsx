@@ -57,7 +57,7 @@ function optionalFacts({ own_landmarks: own, layout, certificate, coverage, grou
   return [
     ...(coverage === null
       ? []
-      : [{ name: 'Coverage', value: coverageSentence(coverage), note: 'The rest lies in caps over holes; all other numbers are those of skin on skin' }]),
+      : [{ name: 'Coverage', value: coverageSentence(coverage), note: 'The rest lies in caps over holes; all other numbers are measured where skin lies on skin' }]),
     ...(own > 0 ? [{ name: 'Own cones', value: `${integer(own)} of the program’s own`, note: 'Points added where the landmarks are few' }] : []),
     ...(layout === null
       ? []

@@ -81,13 +81,13 @@ export function WipeLine({ state, actions }: Props): VNode | null {
       style={{ '--wipe': String(wipe) }}
       role="slider"
       tabIndex={0}
-      aria-label="Border between the source by itself and what the map carries onto it"
+      aria-label="Border between the plain source and the picture that the map carries onto it"
       aria-orientation="horizontal"
       aria-valuenow={Math.round(100 * wipe)}
       aria-valuemin={0}
       aria-valuemax={100}
-      aria-valuetext={`${Math.round(100 * wipe)} % of the view shows the source by itself`}
-      title="Drag: to the left the source by itself, to the right what the map carries there"
+      aria-valuetext={`${Math.round(100 * wipe)} % of the view shows the plain source`}
+      title="Drag: to the left of it is the plain source, to the right the picture that the map carries there"
       onPointerDown={(event) => {
         event.currentTarget.setPointerCapture(event.pointerId);
         setHeld(true);
