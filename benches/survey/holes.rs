@@ -252,7 +252,12 @@ fn map(arguments: &Arguments, sides: [&Punched; 2], pairs: &[[u32; 2]]) -> Resul
     let caps = CapFaces { source: Some(&sides[0].is_cap), target: Some(&sides[1].is_cap) };
     let input = MapInput { source, target, landmarks: &landmarks, ground_truth: GroundTruth::Unknown, caps };
     let mut limit = Limit::new(arguments.time_limit);
-    run(input, &arguments.options, &mut limit).map_err(|e| e.to_string())
+    let result = run(input, &arguments.options, &mut limit).map_err(|e| e.to_string())?;
+    if result.correspondence.is_none() {
+        let warnings: Vec<String> = result.report.warnings.iter().map(ToString::to_string).collect();
+        return Err(format!("the map has no overlay: {}", warnings.join(" ")));
+    }
+    Ok(result)
 }
 
 /// Compares a map of meshes with holes, and the closed pair's map, with the true map, which takes vertex i of the closed source to vertex i of
