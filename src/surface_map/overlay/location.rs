@@ -98,6 +98,9 @@ pub struct Locator {
     queue: Vec<(VertexId, [u32; 2])>,
 }
 
+/// A landmark's images by different ways differ by rounding, which is far below this distance; the area of the cone surface is 1.
+const AT_LANDMARK: f64 = 1e-9;
+
 /// The location of a vertex that has not been found yet.
 const NOWHERE: Location =
     Location { corner: HalfedgeId(u32::MAX), face: FaceId(u32::MAX), motion: Rigid2::IDENTITY };
@@ -178,7 +181,8 @@ impl Locator {
             };
             let Some(from) = onwards else { break };
             let head = mesh.head(from.corner);
-            let arrived = walk(source, target, from).ok_or(LocateError::Lost { vertex: head.index() })?;
+            let arrived = walk([source, target], from, self.apexes[head])
+                .ok_or(LocateError::Lost { vertex: head.index() })?;
             found = (head, arrived);
         }
         let missing = by_vertex.iter().position(|at| at.corner == NOWHERE.corner);
@@ -254,8 +258,7 @@ fn turn_around_cone(
     let corner = |x: HalfedgeId| target.embedding.corners[x];
     let mut wedge = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| below.tail(x) == apex)?;
     let image = at.motion.apply(source.embedding.corners[at.corner]);
-    // Both are the landmark, up to rounding; the area of the cone surface is 1.
-    if image.distance(corner(wedge)) > 1e-9 {
+    if image.distance(corner(wedge)) > AT_LANDMARK {
         return None;
     }
     let mut here = at;
@@ -287,34 +290,32 @@ fn turn_around_cone(
     }
 }
 
-/// Walks along the edge of the location's corner to its end.
-fn walk(source: Parametrised<'_>, target: Parametrised<'_>, from: Location) -> Option<Location> {
-    let end = source.embedding.corners[from.corner.next()];
-    let arrived = walk_to(source, target, from, end)?;
-    Some(Location { corner: from.corner.next(), ..arrived })
-}
-
-/// Walks straight from the location to a point in the plane of its source face.
-fn walk_to(
-    source: Parametrised<'_>,
-    target: Parametrised<'_>,
-    from: Location,
-    end: DVec2,
-) -> Option<Location> {
-    let start = source.embedding.corners[from.corner];
+/// Walks along the edge of the location's corner to its end. Where that is a landmark, `apex` is the target's vertex of it, and the walk ends
+/// in the first face that has it as a corner: beyond the landmark, rounding would choose the side on which the walk passes the cone.
+fn walk([source, target]: [Parametrised<'_>; 2], from: Location, apex: Option<VertexId>) -> Option<Location> {
+    let ends = [from.corner, from.corner.next()].map(|h| source.embedding.corners[h]);
     let mesh = target.mesh;
     let (mut face, mut motion) = (from.face, from.motion);
     let mut entered = None;
-    let mut line = [motion.apply(start), motion.apply(end)];
+    let mut line = ends.map(|end| motion.apply(end));
+    let is_at = |face: FaceId, apex: VertexId, end: DVec2| {
+        let at =
+            |x: HalfedgeId| mesh.tail(x) == apex && target.embedding.corners[x].distance(end) <= AT_LANDMARK;
+        (0..3).any(|k| at(HalfedgeId::of(face, k)))
+    };
     // A straight line crosses no face twice but around cones: more steps than that are a walk that rounding keeps from arriving.
     for _ in 0..mesh.face_count() + 1000 {
+        let arrived = Location { corner: from.corner.next(), face, motion };
+        if apex.is_some_and(|apex| is_at(face, apex, line[1])) {
+            return Some(arrived);
+        }
         let Some(exit) = exit_edge(target.embedding, face, line, entered) else {
-            return Some(Location { corner: from.corner, face, motion });
+            return Some(arrived);
         };
         let transition = &target.embedding.transitions[exit];
         if *transition != Rigid2::IDENTITY {
             motion = transition.after(&motion);
-            line = [motion.apply(start), motion.apply(end)];
+            line = ends.map(|end| motion.apply(end));
         }
         let twin = mesh.twin(exit);
         face = twin.face();
