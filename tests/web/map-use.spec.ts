@@ -174,7 +174,7 @@ test('a line wipes what the map carries across the source', { tag: '@long' }, as
     expect(await differing(plain, carried, right, clip.width)).toBeGreaterThan(0.02 * body);
   };
   await page.locator('#wipe').click();
-  const line = page.getByRole('slider', { name: /what the map carries onto it/ });
+  const line = page.getByRole('slider', { name: /that the map carries onto it/ });
   await expect(line).toHaveAttribute('aria-valuenow', '50');
   await expectWiped(0.5);
 
