@@ -61,7 +61,7 @@ impl Place {
     pub fn weights_in(self, mesh: &SurfaceMesh, face: FaceId) -> Option<[f64; 3]> {
         match self {
             Self::Vertex(v) => {
-                let corner = mesh.triangles()[face].iter().position(|&w| w == v)?;
+                let corner = mesh.corner_at(face, v)?.corner();
                 Some([0, 1, 2].map(|k| if k == corner { 1.0 } else { 0.0 }))
             }
             Self::Edge { halfedge, along } if halfedge.face() == face => {

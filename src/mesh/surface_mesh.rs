@@ -120,6 +120,11 @@ impl SurfaceMesh {
         (0..self.face_count()).map(FaceId::from)
     }
 
+    /// The halfedge of a face that starts at a vertex; `None` where the vertex is none of the face's corners.
+    pub fn corner_at(&self, face: FaceId, v: VertexId) -> Option<HalfedgeId> {
+        face.halfedges().into_iter().find(|&h| self.tail(h) == v)
+    }
+
     /// All halfedge numbers.
     pub fn halfedges(&self) -> impl ExactSizeIterator<Item = HalfedgeId> + use<> {
         (0..self.face_count() * 3).map(HalfedgeId::from)

@@ -391,7 +391,7 @@ impl Pen<'_> {
     }
 
     fn inside(&self, face: FaceId, v: VertexId, seen: Seen) -> [f64; 3] {
-        let corner = face.halfedges().into_iter().find(|&h| self.side.mesh.tail(h) == v);
+        let corner = self.side.mesh.corner_at(face, v);
         let at: DVec2 = corner.map_or(DVec2::ZERO, |h| self.side.embedding.corners[h]);
         barycentric::clamped_in(self.surface.charts[seen.chart], seen.motion.apply(at))
     }

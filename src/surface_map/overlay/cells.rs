@@ -327,7 +327,7 @@ fn unit(k: usize) -> [f64; 3] {
 
 /// The number, 0 to 2, of the corner of a face at which a vertex is.
 fn corner_in(mesh: &SurfaceMesh, f: FaceId, v: VertexId) -> usize {
-    mesh.triangles()[f].iter().position(|&c| c == v).unwrap_or(0)
+    mesh.corner_at(f, v).map_or(0, HalfedgeId::corner)
 }
 
 /// A point of an edge, given by both its halfedges, as seen from one of its two faces.

@@ -1,4 +1,4 @@
-//! CornerLocations: for every source corner the target face that holds its vertex, and the motion to it from the corner's source face.
+//! The locations of all source corners: the target face that holds the corner's vertex, and the motion to it from the corner's source face.
 
 use super::location::{Location, Locations};
 use super::pieces::OverlayError;
@@ -105,7 +105,7 @@ impl CornerLocations {
         }
     }
 
-    /// CornerLocations source edges between two landmarks that coincide with a target edge on its left, at both ends.
+    /// Locates source edges between two landmarks that coincide with a target edge on its left, at both ends.
     ///
     /// Both edges are the same straight line on the cone surface, and neither end may be moved. Rounding would put the source
     /// edge on the left at one end and on the right at the other, or send its trace around the landmark. So it is taken to lie on
@@ -140,7 +140,7 @@ impl CornerLocations {
         }
     }
 
-    /// CornerLocations a source halfedge, which coincides with the target halfedge `x`, in the wedge on the left or on the right of it.
+    /// Locates a source halfedge, which coincides with the target halfedge `x`, in the wedge on the left or on the right of it.
     fn locate_beside(&mut self, target: Parametrised<'_>, h: HalfedgeId, x: HalfedgeId, wedge: HalfedgeId) {
         let Some(present) = self.wedges[h].filter(|present| *present != wedge) else { return };
         // From the left of x to its right, or back.
@@ -151,7 +151,7 @@ impl CornerLocations {
         self.wedges[h] = Some(wedge);
     }
 
-    /// CornerLocations all corners of an ordinary vertex.
+    /// Locates all corners of an ordinary vertex.
     fn locate(&mut self, source: Parametrised<'_>, target: Parametrised<'_>, at: &Location) {
         let mesh = source.mesh;
         let mut location = CornerLocation { face: at.face, motion: at.motion };
@@ -176,7 +176,7 @@ impl CornerLocations {
         }
     }
 
-    /// CornerLocations one corner of a landmark: in the target face into which its halfedge points.
+    /// Locates one corner of a landmark: in the target face into which its halfedge points.
     fn locate_at_landmark(
         &mut self,
         source: Parametrised<'_>,
@@ -189,8 +189,7 @@ impl CornerLocations {
         let landmark = source.landmark_vertices.position(|&other| other == v).ok_or(lost)?;
         let apex = target.landmark_vertices[landmark];
         let mut location = CornerLocation { face: at.face, motion: at.motion };
-        let start = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| mesh.tail(x) == apex);
-        let mut wedge = start.ok_or(lost)?;
+        let mut wedge = mesh.corner_at(at.face, apex).ok_or(lost)?;
         let along = self.corners[at.corner.next()] - self.corners[at.corner];
         let corner = |x: HalfedgeId| target.embedding.corners[x];
         let mut hops = 0..HOPS;

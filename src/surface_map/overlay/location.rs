@@ -256,7 +256,7 @@ fn turn_around_cone(
 ) -> Option<()> {
     let [mesh, below] = [source.mesh, target.mesh];
     let corner = |x: HalfedgeId| target.embedding.corners[x];
-    let mut wedge = (0..3).map(|k| HalfedgeId::of(at.face, k)).find(|&x| below.tail(x) == apex)?;
+    let mut wedge = below.corner_at(at.face, apex)?;
     let image = at.motion.apply(source.embedding.corners[at.corner]);
     if image.distance(corner(wedge)) > AT_LANDMARK {
         return None;
@@ -299,9 +299,7 @@ fn walk([source, target]: [Parametrised<'_>; 2], from: Location, apex: Option<Ve
     let mut entered = None;
     let mut line = ends.map(|end| motion.apply(end));
     let is_at = |face: FaceId, apex: VertexId, end: DVec2| {
-        let at =
-            |x: HalfedgeId| mesh.tail(x) == apex && target.embedding.corners[x].distance(end) <= AT_LANDMARK;
-        (0..3).any(|k| at(HalfedgeId::of(face, k)))
+        mesh.corner_at(face, apex).is_some_and(|x| target.embedding.corners[x].distance(end) <= AT_LANDMARK)
     };
     // A straight line crosses no face twice but around cones: more steps than that are a walk that rounding keeps from arriving.
     for _ in 0..mesh.face_count() + 1000 {
