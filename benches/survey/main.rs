@@ -216,7 +216,7 @@ const SURVEYS: &[Survey] = &[
     },
     Survey {
         name: "match",
-        about: "pairs matched without a landmark, both directions: known landmarks, verdict; --seeds N: varied targets, --variants full: whole maps, --depth 2: all candidates",
+        about: "pairs matched without a landmark, both directions: known landmarks, verdict; --seeds N: varied targets, --variants full,answered: whole maps, questions answered, --landmarks N: given, --depth 2: all candidates",
         run: matched::table,
     },
 ];

@@ -1,6 +1,8 @@
 //! Landmark pairs found by the program, judged by known landmarks: how far the map takes these from their partners, and whether the verdict
 //! (sure, doubtful, unknown) is justified.
 //!
+//! With `--landmarks N` so many of the known landmarks are given; with `--variants answered` the questions of doubtful matches are answered.
+//!
 //! A match is right when the image of each known landmark is nearer to its partner than to any other landmark, leaving out those within
 //! 0.15 of the root of the area from the partner. Left and right of the whole body may be as given or exchanged.
 
@@ -9,7 +11,7 @@ use crate::common;
 use crate::shrec07;
 use conemap::geodesic::distances;
 use conemap::landmark_matching::{
-    Candidate, CoarsePicture, LandmarkMatch, MatchInput, MatchOptions, Verdict, match_landmarks,
+    Candidate, CoarsePicture, LandmarkMatch, MatchInput, MatchOptions, Question, Verdict, match_landmarks,
 };
 use conemap::landmarks::Landmarks;
 use conemap::math::random::SplitMix as Random;
@@ -28,12 +30,35 @@ use typed_index_collections::TiVec;
 /// The distance between two landmarks, in units of the root of the area, up to which one may be taken for the other.
 const APART: f64 = 0.15;
 
+/// Questions that are answered, at most.
+const QUESTIONS: usize = 3;
+
 /// Two meshes with the places of their known landmarks in space.
 struct Known {
     name: String,
     meshes: [SurfaceMesh; 2],
     places: [Vec<DVec3>; 2],
     truth: GroundTruth<'static>,
+}
+
+impl Known {
+    /// So many known landmarks as given pairs, the first one and then each time the one that is farthest from those before: the vertices
+    /// nearest to their places.
+    fn given(&self, count: usize) -> Vec<[VertexId; 2]> {
+        let places = &self.places[0];
+        let mut chosen: Vec<usize> = (0..count.min(1)).collect();
+        while chosen.len() < count.min(places.len()) {
+            let off = |k: &usize| {
+                chosen.iter().map(|&c| places[c].distance(places[*k])).fold(f64::INFINITY, f64::min)
+            };
+            chosen.extend((0..places.len()).max_by(|a, b| off(a).total_cmp(&off(b))));
+        }
+        let index = self.meshes.each_ref().map(SurfaceIndex::new);
+        let nearest = |side: usize, k: usize| {
+            index[side].nearest(self.places[side][k]).point.heaviest_corner(&self.meshes[side])
+        };
+        chosen.into_iter().map(|k| [nearest(0, k), nearest(1, k)]).collect()
+    }
 }
 
 /// How well a map fits the known landmarks.
@@ -192,10 +217,14 @@ impl Change {
 
 fn one(arguments: &Arguments, known: Known) -> Reached {
     let begun = ThreadTime::now();
-    let input = MatchInput::new(&known.meshes[0], &known.meshes[1]);
-    let found = match_landmarks(input, &MatchOptions::default(), &mut Silent).expect("nobody stops");
+    let mut given = known.given(arguments.landmarks);
+    let mut found = matched(&known, &given);
     let seconds = begun.elapsed().as_secs_f64();
     let mut line = format!("{:28} {seconds:6.2} s {:9}", known.name, found.verdict.word());
+    if arguments.variants.iter().any(|variant| variant == "answered") {
+        let answers = settle(&known, &mut given, &mut found);
+        line += &format!("{answers} answers: {:9}", found.verdict.word());
+    }
     let Some(best) = found.candidates.first() else {
         let line = line + " no candidate";
         return Reached { line, right: false, nearly: false, sure: false, error: f64::NAN };
@@ -224,6 +253,38 @@ fn one(arguments: &Arguments, known: Known) -> Reached {
         sure: found.verdict == Verdict::Sure,
         error: *error,
     }
+}
+
+fn matched(known: &Known, given: &[[VertexId; 2]]) -> LandmarkMatch {
+    let input = MatchInput { given, ..MatchInput::new(&known.meshes[0], &known.meshes[1]) };
+    match_landmarks(input, &MatchOptions::default(), &mut Silent).expect("nobody stops")
+}
+
+/// Answers the questions of doubtful matches, at most [`QUESTIONS`], as somebody would who knows the landmarks, and matches again with the
+/// answers as given pairs; returns the number of answers. A question to which neither place is the answer ends it.
+fn settle(known: &Known, given: &mut Vec<[VertexId; 2]>, found: &mut LandmarkMatch) -> usize {
+    let mut answers = 0;
+    while let Verdict::Doubtful(question) = &found.verdict {
+        let Some(answer) = answer(known, question).filter(|_| answers < QUESTIONS) else { break };
+        given.push([question.source, answer]);
+        answers += 1;
+        *found = matched(known, given);
+    }
+    answers
+}
+
+/// The place that is the answer to a question: the one nearest to the known landmark that belongs there; `None` where both are farther than
+/// [`APART`] from it, or where no known landmark is that near to the vertex in question.
+fn answer(known: &Known, question: &Question) -> Option<VertexId> {
+    let at = |side: usize, v: VertexId| known.meshes[side].positions()[v];
+    let [source_root, target_root] = [0, 1].map(|side| known.meshes[side].area().sqrt());
+    let from = at(0, question.source);
+    let places = known.places[0].iter().zip(&known.places[1]);
+    let near = places.filter(|(own, _)| own.distance(from) < APART * source_root);
+    let (_, &goal) = near.min_by(|a, b| a.0.distance(from).total_cmp(&b.0.distance(from)))?;
+    let off = |v: &VertexId| at(1, *v).distance(goal);
+    let nearest = question.targets.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+    nearest.filter(|v| off(v) < APART * target_root)
 }
 
 /// The fit with fewer wrong landmarks: with left and right as given (preferred where both are equal), or exchanged.

@@ -100,11 +100,6 @@ impl Candidate {
             assignment,
         }
     }
-
-    /// The score of its map alone, without the part for noses and ears.
-    pub(super) fn score_of_map(&self) -> f64 {
-        self.score - roles(&self.assignment)
-    }
 }
 
 /// The part of the score for noses that go to ears, and ears to ears.

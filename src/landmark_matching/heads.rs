@@ -13,6 +13,7 @@ const MOST: usize = 2;
 /// The assignment `from`, changed so that some twins go to twins on the same side, and the end on the middle line near them to that near
 /// the others; the [`MOST`] changes that fit best. None where either body has no twins, or `from` takes no limbs to limbs.
 pub(super) fn with_twins(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
+    let given = tables.shapes[0].given;
     let [source, target] = &tables.roles;
     let image = |s: usize| from.pairs.iter().find(|pair| pair[0] == s).map(|pair| pair[1]);
     let limbs: Vec<[[usize; 2]; 2]> =
@@ -33,15 +34,17 @@ pub(super) fn with_twins(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignme
             let misfit = [[a, x], [b, y]].map(|pair| tables.mean_misfit(pair, &on_limbs));
             let middle =
                 source.between(tables.shapes[0], twins).zip(target.between(tables.shapes[1], others));
-            if misfit[0].max(misfit[1]) < FITS {
-                let group = middle.map(|(m, n)| [m, n]).into_iter().chain([[a, x], [b, y]]).collect();
+            let group = middle.map(|(m, n)| [m, n]).into_iter().chain([[a, x], [b, y]]);
+            let mut group: Vec<[usize; 2]> = group.collect();
+            let contradicts = |&[s, t]: &[usize; 2]| s != t && (s < given || t < given);
+            if misfit[0].max(misfit[1]) < FITS && !group.iter().any(contradicts) {
+                group.retain(|pair| pair[0] >= given);
                 found.push((misfit[0] + misfit[1], group));
             }
         }
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let with = |(_, group): (f64, Vec<[usize; 2]>)| {
-        let given = tables.shapes[0].given;
         let is_new = |pair: &[usize; 2]| group.iter().any(|new| new[0] == pair[0] || new[1] == pair[1]);
         let kept = from.pairs.iter().enumerate().filter(|(k, pair)| *k < given || !is_new(pair));
         let pairs: Vec<[usize; 2]> = kept.map(|(_, pair)| *pair).chain(group.iter().copied()).collect();

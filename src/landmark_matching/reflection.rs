@@ -49,7 +49,7 @@ impl Reflection {
             return Vec::new();
         }
         let is_lesser = |k: &usize| !main.contains(k) && main.len() <= MOST_TIPS_WITH_LESSER;
-        let lesser: Vec<usize> = (shape.given..shape.marks.len()).filter(is_lesser).collect();
+        let lesser: Vec<usize> = shape.tips().filter(is_lesser).collect();
         let none = Self { pairs: Vec::new(), middle: Vec::new() };
         let mut all = Vec::new();
         none.extend(main, &mut all);

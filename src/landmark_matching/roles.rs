@@ -35,8 +35,8 @@ impl Roles {
         if limbs.is_empty() {
             return Self::default();
         }
-        let tips = shape.given..shape.marks.len();
-        let others: Vec<usize> = tips.filter(|k| !limbs.iter().flatten().any(|limb| limb == k)).collect();
+        let others: Vec<usize> =
+            shape.tips().filter(|k| !limbs.iter().flatten().any(|limb| limb == k)).collect();
         let mut pairs: Vec<(f64, [usize; 2])> = Vec::new();
         for (k, &b) in others.iter().enumerate() {
             for &a in &others[..k] {

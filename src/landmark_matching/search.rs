@@ -22,7 +22,7 @@ pub(super) struct Assignment {
     pub(super) agreement: f64,
     /// Main tips without a partner, by mesh.
     pub(super) unmatched: [usize; 2],
-    /// Whether it takes left and right of one body to those of the other; given pairs are taken to do so.
+    /// Whether it takes left and right of one body to those of the other.
     pub(super) keeps_sides: bool,
     /// Number of twins that go to twins, as ears to ears.
     pub(super) twins: usize,
@@ -144,8 +144,10 @@ impl Partial {
     fn join(&mut self, tables: &Tables<'_>, [s, t]: [usize; 2]) {
         self.misfit += self.pairs.iter().map(|&other| tables.misfit([s, t], other)).sum::<f64>();
         self.pairs.push([s, t]);
-        let [a, b] = [&tables.shapes[0].marks[s], &tables.shapes[1].marks[t]];
-        if a.persistence > 0.0 && b.persistence > 0.0 {
+        let [source, target] = tables.shapes;
+        // Given pairs cost the same in all assignments.
+        if s >= source.given && t >= target.given {
+            let [a, b] = [&source.marks[s], &target.marks[t]];
             self.difference += tables.difference[s][t];
             self.persistence += ln(a.persistence / b.persistence).abs();
         }
@@ -184,8 +186,7 @@ impl Partial {
             unmatched_cost: UNMATCHED * self.unmatched_cost,
             agreement: agreement(tables.shapes, &clear),
             unmatched: self.unmatched,
-            keeps_sides: tables.shapes[0].given > 0
-                || keeps_sides(tables.reflections.each_ref().map(Vec::as_slice), &self.pairs),
+            keeps_sides: keeps_sides(tables.reflections.each_ref().map(Vec::as_slice), &self.pairs),
             pairs: self.pairs,
             between: None,
         }

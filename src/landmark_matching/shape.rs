@@ -51,7 +51,7 @@ pub(super) struct Shape {
 /// A given landmark or a tip.
 pub(super) struct Mark {
     pub(super) vertex: VertexId,
-    /// The persistence of a tip; 0 for a given landmark.
+    /// The persistence of a tip, or of the tip that a given landmark stands for; 0 for other given landmarks.
     pub(super) persistence: f64,
     /// The distance of each vertex to the mark.
     pub(super) field: TiVec<VertexId, f64>,
@@ -95,7 +95,15 @@ impl Shape {
             if shape.marks.len() >= shape.given + options.most_tips {
                 break;
             }
-            if shape.marks[..shape.given].iter().any(|mark| mark.field[peak.vertex] < SAME_PLACE) {
+            let given = shape.marks[..shape.given].iter_mut();
+            if let Some(mark) = given
+                .filter(|mark| mark.field[peak.vertex] < SAME_PLACE)
+                .min_by(|a, b| a.field[peak.vertex].total_cmp(&b.field[peak.vertex]))
+            {
+                // It stands for the tip. The more persistent peaks come first.
+                if mark.persistence == 0.0 {
+                    mark.persistence = peak.persistence;
+                }
                 continue;
             }
             let Some(vertex) = shape.allowed(peak.vertex) else { continue };
@@ -156,9 +164,8 @@ impl Shape {
 
     /// For each mark the number of the tip with nearly the same descriptor, as left and right foot have; partners name each other.
     pub(super) fn partners(&self) -> Vec<Option<usize>> {
-        let tips = || self.given..self.marks.len();
         let nearest = |a: usize| {
-            let others = tips().filter(|&b| a >= self.given && b != a);
+            let others = self.tips().filter(|&b| self.is_tip(a) && b != a);
             let differences = others.map(|b| (self.marks[a].difference(&self.marks[b]), b));
             let least = differences.min_by(|a, b| a.0.total_cmp(&b.0));
             least.filter(|least| least.0 < ALIKE).map(|least| least.1)
@@ -185,10 +192,19 @@ impl Shape {
         places.into_iter().map(|v| self.on_mesh(v)).collect()
     }
 
-    /// The numbers of the main tips.
+    /// The numbers of the tips, with those of the given landmarks that stand for one.
+    pub(super) fn tips(&self) -> impl Iterator<Item = usize> + Clone {
+        (0..self.marks.len()).filter(|&k| self.is_tip(k))
+    }
+
+    /// Whether a mark is a tip, or a given landmark that stands for one.
+    pub(super) fn is_tip(&self, mark: usize) -> bool {
+        self.marks[mark].persistence > 0.0
+    }
+
+    /// The numbers of the main tips, with those of the given landmarks that stand for one.
     pub(super) fn main(&self, options: &MatchOptions) -> Vec<usize> {
-        let tips = self.given..self.marks.len();
-        tips.filter(|&k| self.marks[k].persistence >= options.main_persistence).collect()
+        self.tips().filter(|&k| self.marks[k].persistence >= options.main_persistence).collect()
     }
 }
 

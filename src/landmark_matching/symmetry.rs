@@ -4,11 +4,12 @@
 
 use super::reflection::Reflection;
 use super::search::{Assignment, Tables};
+use super::shape::Shape;
+use crate::landmarks::MeshSide;
 
 /// The assignments that take partners to partners and the middle line to the middle line, the cheapest first: of those that differ only in
 /// left and right, the cheapest one. The given pairs come first in each. One tip on the middle line may have no partner, without cost.
 pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) -> Vec<Assignment> {
-    let given: Vec<[usize; 2]> = (0..tables.shapes[0].given).map(|k| [k, k]).collect();
     let [source, target] = reflections;
     let pairings = injections(source.pairs.len(), target.pairs.len(), 0);
     let middles = injections(source.middle.len(), target.middle.len(), 1);
@@ -16,13 +17,14 @@ pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) ->
     for pairing in &pairings {
         for middle in &middles {
             let on_middle = middle.iter().map(|&[s, t]| [source.middle[s], target.middle[t]]);
-            let fixed: Vec<[usize; 2]> = given.iter().copied().chain(on_middle).collect();
-            let turns = (0..1_usize << pairing.len()).map(|turned| {
+            let on_middle: Vec<[usize; 2]> = on_middle.collect();
+            let turns = (0..1_usize << pairing.len()).filter_map(|turned| {
                 let swap = |k: usize, flank: usize| flank ^ (turned >> k & 1);
                 let both = pairing.iter().enumerate().flat_map(|(k, &[s, t])| {
                     [0, 1].map(|flank| [source.pairs[s][flank], target.pairs[t][swap(k, flank)]])
                 });
-                tables.assignment(&fixed.iter().copied().chain(both).collect::<Vec<_>>())
+                let pairs = with_given(tables.shapes, on_middle.iter().copied().chain(both))?;
+                Some(tables.assignment(&pairs))
             });
             found.extend(turns.min_by(|a, b| a.full_cost().total_cmp(&b.full_cost())));
         }
@@ -32,6 +34,24 @@ pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) ->
     let cost = |a: &Assignment| a.full_cost() - if is_rest(a) { a.unmatched_cost } else { 0.0 };
     found.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
     found
+}
+
+/// The given pairs, then those of `pairs` that contradict none; `None` where one of them takes the tip that a given pair begins or ends at
+/// elsewhere. A given pair between a tip and another place replaces the pairs of that tip.
+fn with_given(shapes: [&Shape; 2], pairs: impl Iterator<Item = [usize; 2]>) -> Option<Vec<[usize; 2]>> {
+    let given = shapes[0].given;
+    let mut all: Vec<[usize; 2]> = (0..given).map(|k| [k, k]).collect();
+    for pair in pairs {
+        let of_given = MeshSide::BOTH.map(|side| Some(pair[side]).filter(|&k| k < given));
+        let joins_tips = |k: usize| shapes.iter().all(|shape| shape.is_tip(k));
+        match of_given {
+            [None, None] => all.push(pair),
+            [Some(s), Some(t)] if s == t => {}
+            ends if ends.into_iter().flatten().any(joins_tips) => return None,
+            _ => {}
+        }
+    }
+    Some(all)
 }
 
 /// All injections of the smaller set into the larger one, and those in which up to `missing` elements of the smaller set have no image.

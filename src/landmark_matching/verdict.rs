@@ -80,17 +80,19 @@ pub(super) fn verdict(
     limits: &VerdictLimits,
 ) -> Verdict {
     let unknown = || Verdict::Unknown { places: shapes[0].far_places() };
-    let Some(best) = candidates.first().filter(|best| best.score_of_map() < limits.unknown_score) else {
+    let Some(best) = candidates.first().filter(|best| best.score < limits.unknown_score) else {
         return unknown();
     };
     let parts = |c: &&Candidate| c.difference.as_ref().is_some_and(|d| d.share > limits.parting);
     let number = candidates.iter().position(|candidate| parts(&candidate));
     let rival = number.map(|number| &candidates[number]);
-    let near = rival.is_some_and(|rival| rival.score_of_map() < best.score_of_map() + limits.margin);
+    let near = rival.is_some_and(|rival| rival.score < best.score + limits.margin);
     let clear = best.pairs.iter().filter(|pair| pair.origin != PairOrigin::Between).count();
     let sides = best.assignment.keeps_sides;
     let good = if sides { limits.sure_score } else { limits.sure_score_without_sides };
-    let fits = best.score_of_map() < good && best.agreement >= limits.agreement;
+    // A given pair settles a doubt that came of the score alone.
+    let good = good + limits.per_given * input.given.len() as f64;
+    let fits = best.score < good && best.agreement >= limits.agreement;
     if fits && !near && clear >= limits.least_pairs {
         return Verdict::Sure;
     }
@@ -139,25 +141,63 @@ fn nearest_vertex(index: &SurfaceIndex<'_>, place: DVec3) -> VertexId {
 
 #[cfg(test)]
 mod tests {
+    use super::super::difference::{Difference, DifferenceKind};
     use super::super::input::MayMark;
+    use super::super::options::MatchOptions;
+    use super::super::pair::MatchedPair;
+    use super::super::shape::Body;
     use super::*;
-    use crate::mesh::SurfacePoint;
     use crate::mesh::generators::icosphere;
+    use crate::mesh::{SurfaceMesh, SurfacePoint};
+    use crate::monitor::Silent;
     use typed_index_collections::TiVec;
+
+    /// The image of a ball's vertex under half a turn about the last axis: what lies on it stays, what is far from it goes far.
+    fn turned(index: &SurfaceIndex<'_>, v: VertexId) -> VertexId {
+        nearest_vertex(index, index.mesh().positions()[v] * DVec3::new(-1.0, -1.0, 1.0))
+    }
+
+    /// A candidate of five tips that stay where they are, and one that is half a turn, with these scores.
+    fn right_and_turned(mesh: &SurfaceMesh, scores: [f64; 2]) -> [Candidate; 2] {
+        let index = SurfaceIndex::new(mesh);
+        let images = |image: &dyn Fn(VertexId) -> VertexId| {
+            mesh.vertices().map(|v| SurfacePoint::at_vertex(mesh, image(v))).collect()
+        };
+        let [mut right, mut other] =
+            [images(&|v| v), images(&|v| turned(&index, v))].map(|images| Candidate::of_images(mesh, images));
+        let tip = |v: VertexId| MatchedPair { source: v, target: v, origin: PairOrigin::Tips };
+        right.pairs = mesh.vertices().take(5).map(tip).collect();
+        [right.score, other.score] = scores;
+        other.difference = Some(Difference { kind: DifferenceKind::Places, pairs: Vec::new(), share: 0.8 });
+        [right, other]
+    }
+
+    #[test]
+    fn an_answer_settles_a_doubt_that_came_of_the_score_but_not_one_between_rivals() {
+        let mesh = icosphere(2);
+        let given = [[VertexId(0); 2]];
+        let verdict = |scores: [f64; 2], given: &[[VertexId; 2]]| {
+            let body = Body { mesh: &mesh, given: &[], may_mark: None };
+            let shape = Shape::new(body, &MatchOptions::default(), &mut Silent).unwrap();
+            let input = MatchInput { given, ..MatchInput::new(&mesh, &mesh) };
+            let candidates = right_and_turned(&mesh, scores);
+            super::verdict(input, [&shape; 2], &candidates, &VerdictLimits::default()).word()
+        };
+        assert_eq!(verdict([0.40, 0.90], &[]), "sure");
+        assert_eq!(verdict([0.55, 0.90], &[]), "doubtful");
+        assert_eq!(verdict([0.55, 0.90], &given), "sure");
+        assert_eq!(verdict([0.40, 0.45], &given), "doubtful");
+        assert_eq!(verdict([1.10, 1.90], &given), "unknown");
+    }
 
     #[test]
     fn a_question_is_about_vertices_that_may_be_marked() {
         let mesh = icosphere(2);
         let at = |v: VertexId| mesh.positions()[v];
         let index = SurfaceIndex::new(&mesh);
-        // Half a turn about the last axis: what lies on it stays, what is far from it goes far.
-        let turned = |v: VertexId| nearest_vertex(&index, at(v) * DVec3::new(-1.0, -1.0, 1.0));
-        let images = |image: &dyn Fn(VertexId) -> VertexId| {
-            mesh.vertices().map(|v| SurfacePoint::at_vertex(&mesh, image(v))).collect()
-        };
-        let candidates = [images(&|v| v), images(&turned)].map(|images| Candidate::of_images(&mesh, images));
+        let candidates = right_and_turned(&mesh, [0.7; 2]);
         let free = question(MatchInput::new(&mesh, &mesh), &candidates, 1).unwrap();
-        assert_eq!((free.targets, free.rival), ([free.source, turned(free.source)], 1));
+        assert_eq!((free.targets, free.rival), ([free.source, turned(&index, free.source)], 1));
         // Neither the source's vertex there nor the target's on one side of the axis.
         let of_source: TiVec<VertexId, bool> = mesh.vertices().map(|v| v != free.source).collect();
         let of_target: TiVec<VertexId, bool> =
