@@ -20,7 +20,7 @@ import { repair } from './app/repair.ts';
 import { freeExamined, repairMesh, showRepairs } from './app/repair-mesh.ts';
 import { Runner } from './app/run.ts';
 import { leaveTask } from './app/task.ts';
-import { showOwnShape, showPair, turn } from './app/turn.ts';
+import { seeFoundAlike, showOwnShape, showPair, turn } from './app/turn.ts';
 import { sharedLink } from './app/sharing.ts';
 import { suggest } from './app/suggest.ts';
 import { Comparer } from './app/compare.ts';
@@ -255,6 +255,7 @@ listenForHalves(store, views);
 findUnasked(store, () => {
   finder.start();
 });
+seeFoundAlike(store, views);
 // The views must hear of a plane before anybody asks them for the point across it.
 const planes = new Planes(store, reader, across);
 store.subscribe(freeForgotten);

@@ -72,7 +72,59 @@ fn injections(sources: usize, targets: usize, missing: usize) -> Vec<Vec<[usize;
 
 #[cfg(test)]
 mod tests {
+    use super::super::options::MatchOptions;
+    use super::super::shape::Body;
+    use super::super::test_bodies::ball_with_ends;
     use super::*;
+    use crate::mesh::VertexId;
+    use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
+    use glam::DVec3;
+
+    /// Two fore feet, two hind ones, which are nearer to each other, a head and a tail; the left ones come first.
+    const ENDS: [DVec3; 6] = [
+        DVec3::new(0.7, 0.6, -0.6),
+        DVec3::new(0.7, -0.6, -0.6),
+        DVec3::new(-0.6, 0.4, -0.8),
+        DVec3::new(-0.6, -0.4, -0.8),
+        DVec3::new(0.9, 0.0, 0.6),
+        DVec3::new(-1.0, 0.0, 0.2),
+    ];
+
+    /// Where the ends of a body go that is matched with itself, each by its number, by the cheapest assignment that keeps left and right;
+    /// the end `given[0]` is given to go to the end `given[1]`.
+    fn images_of_ends(given: [usize; 2]) -> Vec<[usize; 2]> {
+        let ball = icosphere(4);
+        let at = |end: usize| {
+            let distance = |v: &VertexId| ball.positions()[*v].distance(ENDS[end].normalize());
+            ball.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+        };
+        let mesh = ball_with_ends(&ENDS.map(|end| (end, 2.0)), 30.0);
+        let options = MatchOptions::default();
+        let shapes = given.map(|end| {
+            let body = Body { mesh: &mesh, given: &[at(end)], may_mark: None };
+            Shape::new(body, &options, &mut Silent).unwrap()
+        });
+        let tables = Tables::new([&shapes[0], &shapes[1]], &options);
+        let [source, target] = &tables.reflections;
+        let found = equivariant(&tables, [&source[0], &target[0]]);
+        assert!(found.iter().all(|assignment| assignment.pairs[0] == [0, 0]));
+        let end = |shape: &Shape, mark: usize| {
+            let p = ball.positions()[shape.on_mesh(shape.marks[mark].vertex)];
+            (0..ENDS.len()).find(|&end| ENDS[end].normalize().distance(p) < 0.25).unwrap()
+        };
+        let mut images: Vec<[usize; 2]> =
+            found[0].pairs.iter().map(|&[s, t]| [end(&shapes[0], s), end(&shapes[1], t)]).collect();
+        images.sort_unstable();
+        images
+    }
+
+    #[test]
+    fn a_given_end_takes_its_partner_along() {
+        assert_eq!(images_of_ends([0, 0]), [0, 1, 2, 3, 4, 5].map(|end| [end, end]));
+        // Left and right exchanged.
+        assert_eq!(images_of_ends([2, 3]), [[0, 1], [1, 0], [2, 3], [3, 2], [4, 4], [5, 5]]);
+    }
 
     #[test]
     fn every_way_to_give_partners_is_there_once() {

@@ -5,7 +5,7 @@
 
 use super::pose::Pose;
 use super::up_axis::UpAxis;
-use glam::{Quat, Vec2, Vec3};
+use glam::{EulerRot, Quat, Vec2, Vec3};
 use serde::Deserialize;
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
@@ -203,6 +203,13 @@ impl Camera {
         (self.yaw, self.pitch, self.roll) = (yaw, pitch, 0.0);
     }
 
+    /// Looks at its body as `other` looks at its own, where `turn` takes that body to this one; up axis, target and distance stay.
+    pub fn look_like(&mut self, other: &Self, turn: Quat) {
+        let seen = self.up.basis().inverse() * turn * other.turn();
+        let (yaw, down, left) = seen.to_euler(EulerRot::YXZ);
+        (self.yaw, self.pitch, self.roll) = (yaw.rem_euclid(TAU), -down, (-left).rem_euclid(TAU));
+    }
+
     /// Makes another axis of the mesh point up; the angles stay, and the picture is upright.
     pub fn set_up(&mut self, up: UpAxis) {
         self.up = up;
@@ -262,6 +269,30 @@ mod tests {
             let camera = Camera::first(up);
             let way = seen(&camera, up.direction() * 0.5) - seen(&camera, -up.direction() * 0.5);
             assert!(way.y > 0.1 && way.x.abs() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn two_bodies_are_seen_alike_whatever_is_up_in_their_files() {
+        let other = moved();
+        for turn in [
+            Quat::IDENTITY,
+            Quat::from_rotation_z(1.5),
+            Quat::from_rotation_x(2.5) * Quat::from_rotation_y(-1.0),
+        ] {
+            for up in UpAxis::ALL {
+                let mut camera = Camera::first(up);
+                camera.look_like(&other, turn);
+                let [own, as_other] = [camera, other].map(|camera| camera.pose());
+                for (a, b) in [
+                    (own.right(), as_other.right()),
+                    (own.up(), as_other.up()),
+                    (own.back(), as_other.back()),
+                ] {
+                    assert!(a.distance(turn * b) < 1e-5, "{up:?} {turn}");
+                }
+                assert_eq!(Some(camera), Camera::from_numbers(up, &camera.to_numbers()));
+            }
         }
     }
 

@@ -59,6 +59,12 @@ impl UpAxis {
         Quat::from_mat3(&Mat3::from_cols(up.cross(front), up, front))
     }
 
+    /// The axis nearest to a direction.
+    pub fn nearest(direction: Vec3) -> Self {
+        let along = |axis: &Self| axis.direction().dot(direction);
+        Self::ALL.into_iter().max_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or_default()
+    }
+
     /// The same axis the other way.
     pub fn reversed(self) -> Self {
         match self {
@@ -84,6 +90,7 @@ mod tests {
             assert!((basis * Vec3::Y).distance(axis.direction()) < 1e-6);
             assert!((basis * Vec3::Z).distance(axis.front()) < 1e-6);
             assert_eq!(axis.reversed().direction(), -axis.direction());
+            assert_eq!(UpAxis::nearest(axis.direction() + 0.3 * axis.front() + Vec3::splat(0.1)), axis);
         }
         assert_eq!(UpAxis::Y.basis(), Quat::IDENTITY);
     }

@@ -235,3 +235,35 @@ test('with a map the place under the mouse is marked in both views', async ({ pa
   await page.waitForTimeout(SETTLED);
   expect((await page.screenshot({ clip: target })).equals(without)).toBe(true);
 });
+
+/** How alike the pins of both views lie, those that are seen in both: 1 where they lie in the same way, less where one view is turned. */
+async function alike(page: Page): Promise<number> {
+  const [source, target] = [await heads(page, '#view-source'), await heads(page, '#view-target')];
+  const both = [...source.keys()].filter((number) => target.has(number));
+  expect(both.length).toBeGreaterThan(2);
+  const away = (pins: Map<string, Spot>): number[] => {
+    const spots = both.map((number) => pins.get(number) ?? fail(`pin ${number} is not seen`));
+    const mean = (of: (spot: Spot) => number): number => spots.reduce((sum, spot) => sum + of(spot), 0) / spots.length;
+    const [x, y] = [mean((spot) => spot.x), mean((spot) => spot.y)];
+    return spots.flatMap((spot) => [spot.x - x, spot.y - y]);
+  };
+  const [a, b] = [away(source), away(target)];
+  const dot = (p: readonly number[], q: readonly number[]): number => p.reduce((sum, value, k) => sum + value * (q[k] ?? 0), 0);
+  return dot(a, b) / Math.sqrt(dot(a, a) * dot(b, b));
+}
+
+test('a body that lies otherwise in its file is seen as the other one is', async ({ page }) => {
+  await open(page);
+  expect(await alike(page)).toBeGreaterThan(0.9);
+  await page.getByRole('button', { name: 'Turn the target upright' }).click();
+  const axis = (name: string): ReturnType<Page['getByRole']> => page.getByRole('button', { name, exact: true });
+  await axis('X up').click();
+  await page.waitForTimeout(SETTLED);
+  expect(await alike(page)).toBeLessThan(0.8);
+  await page.getByRole('button', { name: 'Look at the target from a side' }).click();
+  await page.getByRole('button', { name: 'As the source is seen' }).click();
+  await page.waitForTimeout(SETTLED);
+  expect(await alike(page)).toBeGreaterThan(0.9);
+  await page.getByRole('button', { name: 'Turn the target upright' }).click();
+  await expect(axis('Y up')).toHaveAttribute('aria-pressed', 'true');
+});

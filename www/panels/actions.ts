@@ -21,6 +21,8 @@ export type CameraCommand =
   | { readonly kind: 'reset' }
   /** Shows the whole mesh from a side. */
   | { readonly kind: 'look'; readonly from: LookFrom }
+  /** Shows the whole mesh as the other one is seen. */
+  | { readonly kind: 'as-other' }
   /** Turns the picture counter-clockwise. */
   | { readonly kind: 'roll'; readonly degrees: number };
 

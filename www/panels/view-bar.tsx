@@ -2,6 +2,7 @@
 import type { VNode } from 'preact';
 import { useState } from 'preact/hooks';
 import type { Side } from '../landmarks.ts';
+import { isWhole, otherSide } from '../landmarks.ts';
 import { shownDefects } from '../store/defects.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { Axis, State } from '../store/state.ts';
@@ -40,23 +41,39 @@ const LINKS: Readonly<Record<State['ui']['link'], string>> = {
 /** The turn of one press, in degrees; six presses turn by a right angle. */
 const ROLL = 15;
 
-function Sides({ actions, side }: Props): VNode {
+/** The landmark pairs that tell how one body lies to the other. */
+const PAIRS_TO_TURN = 3;
+
+function Sides({ state, actions, side }: Props): VNode {
+  const pairs = state.pairs.filter(isWhole).length;
   return (
     <Popover icon="sides" label={`Look at the ${SIDE_NAMES[side]} from a side`} place="up start">
       {() => (
-        <div class="tiles">
-          {choicesOf(DIRECTIONS).map(({ value: from, text }) => (
-            <button
-              key={from}
-              type="button"
-              onClick={() => {
-                actions.camera(side, { kind: 'look', from });
-              }}
-            >
-              {text}
-            </button>
-          ))}
-        </div>
+        <>
+          <div class="tiles">
+            {choicesOf(DIRECTIONS).map(({ value: from, text }) => (
+              <button
+                key={from}
+                type="button"
+                onClick={() => {
+                  actions.camera(side, { kind: 'look', from });
+                }}
+              >
+                {text}
+              </button>
+            ))}
+          </div>
+          <button
+            type="button"
+            disabled={pairs < PAIRS_TO_TURN}
+            title={`By the landmark pairs, of which it needs ${PAIRS_TO_TURN}`}
+            onClick={() => {
+              actions.camera(side, { kind: 'as-other' });
+            }}
+          >
+            As the {SIDE_NAMES[otherSide(side)]} is seen
+          </button>
+        </>
       )}
     </Popover>
   );

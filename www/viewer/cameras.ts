@@ -84,6 +84,13 @@ export class Cameras {
     });
   }
 
+  /** Turns a view so that its whole mesh is seen as the other one is; `pairs` are points of both meshes that correspond, as JSON. */
+  lookAsOther(side: Side, pairs: string): void {
+    this.#one(side, 'smoothly', (viewer) => {
+      viewer.lookAsOther(side, pairs);
+    });
+  }
+
   /** Lets another axis of a mesh point up. */
   setUp(side: Side, axis: Axis, way: 'smoothly' | 'at once' = 'smoothly'): void {
     this.#one(side, way, (viewer) => {

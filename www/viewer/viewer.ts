@@ -3,7 +3,7 @@ import { failureOf } from '../compute/messages.ts';
 import type { Way } from '../compute/saved-messages.ts';
 import { byId } from '../dom.ts';
 import type { Side, SurfacePoint } from '../landmarks.ts';
-import { SIDES } from '../landmarks.ts';
+import { isWhole, SIDES } from '../landmarks.ts';
 import { failureSentence, SENTENCES, unreadPictures } from '../messages.ts';
 import type { Axes } from '../method/axes.ts';
 import { axesOf } from '../method/axes.ts';
@@ -171,6 +171,19 @@ export class Views {
     this.#command(side, (each) => {
       this.#cameras.lookFrom(each, from);
     });
+  }
+
+  /** Turns a view so that its mesh is seen as the other one is, by the pairs on the page; it stays where fewer than three tell how. */
+  lookAsOther(side: Side): void {
+    const pairs = JSON.stringify(this.#state.pairs.filter(isWhole).map(({ points }) => points));
+    const axis = this.#viewer?.upAsOther(side, pairs) as Axis | undefined;
+    if (axis === undefined) {
+      return;
+    }
+    // With the same axis up both bodies turn alike where the cameras are linked.
+    this.#listener.dispatch({ kind: 'up', side, axis });
+    this.#cameras.lookAsOther(side, pairs);
+    this.#moved();
   }
 
   /** Turns the picture counter-clockwise, in degrees. */

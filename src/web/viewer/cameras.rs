@@ -5,11 +5,31 @@ use super::super::{failure, mesh_side};
 use super::canvas::Viewer;
 use super::reading::{named, parsed};
 use crate::io::landmark_file::LandmarkPoint;
+use crate::landmarks::MeshSide;
+use crate::math::rigid3::laid_on;
 use crate::scene::camera::LookFrom;
 use crate::scene::upright::proposed_up;
 use crate::scene::{Camera, Glide, UpAxis};
-use glam::Vec2;
+use glam::{DQuat, DVec3, Quat, Vec2};
 use wasm_bindgen::prelude::*;
+
+/// The least number of pairs that tell how one body lies to another.
+const LEAST_TO_TURN: usize = 3;
+
+impl Viewer {
+    /// The turn of the other body that lays the points of pairs nearest to their partners on this one.
+    fn turn_from_other(&self, side: MeshSide, pairs: &str) -> Result<Option<Quat>, JsValue> {
+        let pairs: Vec<[LandmarkPoint; 2]> = parsed("landmarks", pairs)?;
+        let place = |side: MeshSide, [a, b]: [LandmarkPoint; 2]| {
+            self.sides[side].place_of([a, b][side]).map(|place| place.as_dvec3())
+        };
+        let places =
+            pairs.into_iter().filter_map(|pair| Some((place(side.other(), pair)?, place(side, pair)?)));
+        let (from, onto): (Vec<DVec3>, Vec<DVec3>) = places.unzip();
+        let turn = (from.len() >= LEAST_TO_TURN).then(|| laid_on(&from, &onto).rotation);
+        Ok(turn.map(|turn| DQuat::from_mat3(&turn).as_quat()))
+    }
+}
 
 #[wasm_bindgen]
 impl Viewer {
@@ -101,6 +121,34 @@ impl Viewer {
         let axis = mesh.and_then(|mesh| proposed_up(&mesh.checked.mesh));
         let word = axis.and_then(|axis| serde_json::to_value(axis).ok());
         Ok(word.and_then(|word| word.as_str().map(str::to_owned)))
+    }
+
+    /// The axis of a mesh that points up where both are seen alike; `pairs` are landmark points of both meshes, as JSON. `undefined` where
+    /// fewer than three tell how one body lies to the other.
+    ///
+    /// # Errors
+    /// `{"code": "landmarks", "message"}`.
+    #[wasm_bindgen(js_name = upAsOther)]
+    pub fn up_as_other(&self, side: usize, pairs: &str) -> Result<Option<String>, JsValue> {
+        let side = mesh_side(side)?;
+        let Some(turn) = self.turn_from_other(side, pairs)? else { return Ok(None) };
+        let axis = UpAxis::nearest(turn * self.sides[side.other()].camera.up.direction());
+        Ok(serde_json::to_value(axis).ok().and_then(|word| word.as_str().map(str::to_owned)))
+    }
+
+    /// Turns a view so that its whole mesh is seen as the other one is, by such pairs; the view stays where fewer than three tell how.
+    ///
+    /// # Errors
+    /// `{"code": "landmarks", "message"}`.
+    #[wasm_bindgen(js_name = lookAsOther)]
+    pub fn look_as_other(&mut self, side: usize, pairs: &str) -> Result<(), JsValue> {
+        let side = mesh_side(side)?;
+        let Some(turn) = self.turn_from_other(side, pairs)? else { return Ok(()) };
+        let other = self.sides[side.other()].camera;
+        let side = &mut self.sides[side];
+        side.camera.look_like(&other, turn);
+        side.fit();
+        Ok(())
     }
 
     /// Brings what is seen at a place of a view to its middle, and turns about it from now on; whether there is anything.
