@@ -122,8 +122,8 @@ mod tests {
     #[test]
     fn a_given_end_takes_its_partner_along() {
         assert_eq!(images_of_ends([0, 0]), [0, 1, 2, 3, 4, 5].map(|end| [end, end]));
-        // Left and right exchanged.
-        assert_eq!(images_of_ends([2, 3]), [[0, 1], [1, 0], [2, 3], [3, 2], [4, 4], [5, 5]]);
+        // Half a turn: fore and hind feet exchanged, and left and right.
+        assert_eq!(images_of_ends([0, 3]), [[0, 3], [1, 2], [2, 1], [3, 0], [4, 5], [5, 4]]);
     }
 
     #[test]

@@ -1,15 +1,16 @@
 /** When the page turns a view by itself. */
 import { beforeEach, expect, test, vi } from 'vitest';
+import type { Side } from '../../www/landmarks.ts';
 import { seeFoundAlike } from '../../www/app/turn.ts';
 import type { Event } from '../../www/store/events.ts';
 import { Store } from '../../www/store/store.ts';
 import { MATCH, mesh, PICTURES } from './fixtures.ts';
 
 let store = new Store();
-const lookAsOther = vi.fn();
+const lookAsOther = vi.fn<(side: Side) => void>();
 
 /** The sides that were turned by these events. */
-async function turned(...events: readonly Event[]): Promise<unknown[]> {
+async function turned(...events: readonly Event[]): Promise<Side[]> {
   lookAsOther.mockClear();
   store.dispatch(...events);
   await Promise.resolve();
