@@ -21,7 +21,16 @@ impl<'a> Pulse<'a> {
     /// [`Cancelled`].
     #[inline]
     pub fn beat(&mut self) -> Result<(), Cancelled> {
-        self.passes += 1;
+        self.beat_by(1)
+    }
+
+    /// So many passes are done, or will be before the next beat.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    #[inline]
+    pub fn beat_by(&mut self, passes: usize) -> Result<(), Cancelled> {
+        self.passes = self.passes.saturating_add(passes);
         if self.passes < self.every {
             return Ok(());
         }

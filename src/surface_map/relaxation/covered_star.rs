@@ -112,6 +112,16 @@ pub fn sheets<'a>(
 }
 
 impl Sheet<'_> {
+    /// The number of overlaps that one cost of a vertex' star takes, at most: each of its triangles with each triangle of the other mesh.
+    pub fn overlaps(&self, v: VertexId) -> usize {
+        let (mut faces, mut partners) = (0, 0);
+        for h in self.side.mesh.star(v) {
+            faces += 1;
+            partners += self.partners[h.face()].len();
+        }
+        faces * partners
+    }
+
     /// A face with its rest shape.
     fn rest(&self, f: FaceId) -> FlatTriangle {
         FlatTriangle::with_rest(self.triangle(f).map(Corner::Fixed), self.side.mesh.corners(f))

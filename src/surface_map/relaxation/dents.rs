@@ -17,7 +17,7 @@ use crate::math::scalar::{ln, max};
 use crate::math::triangle::signed_double_area;
 use crate::mesh::face_weights::is_skin_on_both;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
-use crate::monitor::{Cancelled, Monitor, Step};
+use crate::monitor::{Cancelled, Monitor, Pulse, Step};
 use crate::surface_map::measures::distortion::{self, LocalDistortion};
 use crate::surface_map::overlay::{Overlay, Piece};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
@@ -40,6 +40,9 @@ pub struct DentOptions {
     pub deep_sweeps: usize,
     /// The share of all vertices, 0 to 1, that may move in one sweep: those of the worst pieces.
     pub share: f64,
+    /// Overlaps of triangles that one vertex may take in a sweep: one with hundreds of neighbours, over thousands of triangles of the other
+    /// mesh, is not moved, since it would take minutes.
+    pub overlaps: usize,
 }
 
 impl Default for DentOptions {
@@ -47,12 +50,15 @@ impl Default for DentOptions {
         // The brinks: a density of 20 is seen in a texture; other maps may have to distort a limb that the other body lacks.
         // With 12 sweeps over 0.006 of the vertices twice to three times as much of the skin of three pairs of poses kept a density above 20,
         // and E was 0.1 to 0.3 % higher, in the same time within what repetitions differ by. Those 12 took 2 to 6 % of a map's time.
-        Self { pose_brink: 20.0, brink: 500.0, sweeps: 30, deep_sweeps: 40, share: 0.02 }
+        Self { pose_brink: 20.0, brink: 500.0, sweeps: 30, deep_sweeps: 40, share: 0.02, overlaps: 4_000_000 }
     }
 }
 
-/// Vertices moved between two questions to the monitor: some milliseconds.
-const ASKED_EVERY: usize = 32;
+/// Overlaps of triangles between two questions to the monitor: some milliseconds.
+const ASKED_EVERY: usize = 100_000;
+
+/// Costs of a star that one vertex takes, at most: by Newton's method, and when it is looked round.
+const COSTS: [usize; 2] = [40, 400];
 
 /// A vertex that lowers the cost of its star by less than this share rests. Chosen by hand.
 const REST: f64 = 5e-3;
@@ -101,7 +107,7 @@ pub fn heal(
             if dents.vertices.is_empty() {
                 break;
             }
-            faces = healer.sweep(dents, looks.then_some(sweep), monitor)?;
+            faces = healer.sweep(dents, looks.then_some(sweep), options.overlaps, monitor)?;
             swept = true;
         }
     }
@@ -195,15 +201,18 @@ impl Healer<'_> {
         &mut self,
         dents: Dents,
         looks: Option<usize>,
+        most: usize,
         monitor: &mut dyn Monitor,
     ) -> Result<BTreeSet<FaceId>, Cancelled> {
         let Dents { mut faces, vertices } = dents;
-        for (k, vertex) in vertices.into_iter().enumerate() {
-            // To look round takes some milliseconds for one vertex.
-            if looks.is_some() || k.is_multiple_of(ASKED_EVERY) {
-                monitor.step(Step::default())?;
-            }
-            let Some(star) = self.settled(vertex, looks) else {
+        let mut pulse = Pulse::new(monitor, ASKED_EVERY);
+        for vertex in vertices {
+            let each = self.sheets[vertex.side].overlaps(vertex.vertex);
+            let [newton, looking] = COSTS.map(|costs| costs * each);
+            let looks = looks.filter(|_| newton + looking <= most);
+            pulse.beat_by(if looks.is_some() { newton + looking } else { newton.min(most) })?;
+            let star = if newton <= most { self.settled(vertex, looks) } else { None };
+            let Some(star) = star else {
                 self.at_rest.insert(vertex);
                 continue;
             };
@@ -387,6 +396,20 @@ mod tests {
             }
         }
         assert!(healed_dents > 20, "{healed_dents}");
+    }
+
+    #[test]
+    fn a_vertex_that_would_take_too_long_stays() {
+        let (layout, surface, start) = example();
+        let (overlay, measured) = overlaid(sides(&layout, &start), &surface);
+        let energy = DentEnergy { brink: 0.5 * measured.max, ..ENERGY };
+        let healed = |overlaps: usize| {
+            let options = DentOptions { overlaps, ..DentOptions::default() };
+            heal(sides(&layout, &start), &surface, &overlay, &options, energy, &mut Silent).unwrap()
+        };
+        assert!(healed(DentOptions::default().overlaps).is_some());
+        // A star has three triangles at least, each with a partner.
+        assert!(healed(9 * COSTS[0] - 1).is_none());
     }
 
     #[test]
