@@ -4,7 +4,7 @@
 //! their distances and by the orders in which shortest paths lead to them (`search`). The best are judged by their coarse maps
 //! (`judge`), then changed a little as long as that helps (`moves`). The verdict compares the best with those that differ from it.
 
-use super::candidate::Candidate;
+use super::candidate::{Candidate, PictureOnMesh};
 use super::candidates::chosen;
 use super::heads::with_twins;
 use super::input::MatchInput;
@@ -17,7 +17,7 @@ use super::shape::{Body, Shape};
 use super::sharpening::sharpen;
 use super::verdict::{Verdict, verdict};
 use crate::landmarks::MeshSide;
-use crate::mesh::VertexId;
+use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 
 /// Why no landmarks were matched.
@@ -63,7 +63,7 @@ const IMPROVED: f64 = 0.95;
 
 /// Finds landmark pairs of two bodies beside the given ones, with alternatives and a verdict.
 ///
-/// The given pairs are in every candidate. A monitor that wants a result gets the best candidates so far. The options bound the time: each
+/// The given pairs are in every candidate. The map of each candidate that is the best so far is offered as a preview. A monitor that wants a result gets the best candidates so far. The options bound the time: each
 /// candidate costs a coarse map.
 ///
 /// # Errors
@@ -83,7 +83,7 @@ pub fn match_landmarks(
     let target = Shape::new(target, options, &mut Portion::new(monitor, half, LOOKED))?;
     let shapes = [&source, &target];
     let tables = Tables::new(shapes, options);
-    let mut search = Search { shapes, options, found: Vec::new(), judged: 0 };
+    let mut search = Search { source: input.source, shapes, options, found: Vec::new(), judged: 0 };
     search.first_look(&tables, &mut Portion::new(monitor, LOOKED, JUDGED))?;
     search.improve(&tables, &mut Portion::new(monitor, JUDGED, IMPROVED))?;
     let mut candidates = search.found;
@@ -112,6 +112,7 @@ fn check(input: MatchInput<'_>) -> Result<(), MatchError> {
 
 /// A matching under way: the candidates that were judged, the best first.
 struct Search<'a> {
+    source: &'a SurfaceMesh,
     shapes: [&'a Shape; 2],
     options: &'a MatchOptions,
     found: Vec<Candidate>,
@@ -129,8 +130,12 @@ impl Search<'_> {
         let Some(judged) = judge(self.shapes, &pairs, self.options, monitor)? else { return Ok(false) };
         let candidate = Candidate::new(self.shapes, assignment.clone(), judged);
         let place = self.found.partition_point(|other| other.score <= candidate.score);
+        let is_best = place == 0;
+        if is_best {
+            monitor.preview(&PictureOnMesh { picture: &candidate.picture, source: self.source });
+        }
         self.found.insert(place, candidate);
-        Ok(place == 0)
+        Ok(is_best)
     }
 
     fn least_score(&self) -> f64 {

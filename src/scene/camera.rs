@@ -5,7 +5,8 @@
 
 use super::pose::Pose;
 use super::up_axis::UpAxis;
-use glam::{EulerRot, Quat, Vec2, Vec3};
+use crate::math::rigid3::laid_on;
+use glam::{DQuat, EulerRot, Quat, Vec2, Vec3};
 use serde::Deserialize;
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
@@ -30,6 +31,9 @@ const ROOM: f32 = 5.0;
 
 /// The least distance to which the camera comes by itself, in radii of the surface.
 const NEAREST: f32 = 0.12;
+
+/// The least number of pairs of points that tell how one body lies to another.
+const LEAST_TO_TURN: usize = 3;
 
 /// A direction to look from.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]
@@ -203,6 +207,13 @@ impl Camera {
         (self.yaw, self.pitch, self.roll) = (yaw, pitch, 0.0);
     }
 
+    /// The turn that lays points nearest to their partners on another body; `None` where fewer than three pairs tell how it lies.
+    pub fn turn_onto(points: &[Vec3], partners: &[Vec3]) -> Option<Quat> {
+        let [from, onto] = [points, partners].map(|all| all.iter().map(|p| p.as_dvec3()).collect::<Vec<_>>());
+        let turn = (from.len() >= LEAST_TO_TURN).then(|| laid_on(&from, &onto).rotation);
+        turn.map(|turn| DQuat::from_mat3(&turn).as_quat())
+    }
+
     /// Looks at its body as `other` looks at its own, where `turn` takes that body to this one; up axis, target and distance stay.
     pub fn look_like(&mut self, other: &Self, turn: Quat) {
         let seen = self.up.basis().inverse() * turn * other.turn();
@@ -282,7 +293,9 @@ mod tests {
         ] {
             for up in UpAxis::ALL {
                 let mut camera = Camera::first(up);
-                camera.look_like(&other, turn);
+                let points = [P, Vec3::X, Vec3::ZERO, Vec3::NEG_Y];
+                let partners = points.map(|p| turn * p + P);
+                camera.look_like(&other, Camera::turn_onto(&points, &partners).unwrap());
                 let [own, as_other] = [camera, other].map(|camera| camera.pose());
                 for (a, b) in [
                     (own.right(), as_other.right()),
@@ -294,6 +307,11 @@ mod tests {
                 assert_eq!(Some(camera), Camera::from_numbers(up, &camera.to_numbers()));
             }
         }
+    }
+
+    #[test]
+    fn two_pairs_do_not_tell_how_a_body_lies() {
+        assert_eq!(Camera::turn_onto(&[P, Vec3::X], &[P, Vec3::Y]), None);
     }
 
     #[test]

@@ -7,6 +7,7 @@ import { stepAfter } from '../../www/panels/steps.ts';
 import type { MatchReport } from '../../www/report.ts';
 import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
+import { shownPreview } from '../../www/store/preview.ts';
 import { answered, isDoubtful, listed, takenCandidate } from '../../www/store/search.ts';
 import { Store } from '../../www/store/store.ts';
 import type { State } from '../../www/store/state.ts';
@@ -252,14 +253,19 @@ describe('the worker of a search', () => {
     expect(request.module).toBe(CORE);
   });
 
-  test('brings its share and its answer into the state, and ends', () => {
+  test('brings its share, the best map so far and its answer into the state, and ends', () => {
     const worker = started();
     worker.says({ kind: 'progress', share: 0.5 });
     expect(store.state.matching).toMatchObject({ kind: 'searching', share: 0.5 });
+    expect(shownPreview(store.state)).toBeNull();
+    const places = new Float32Array(9);
+    worker.says({ kind: 'preview', places });
+    expect(shownPreview(store.state)).toBe(places);
     worker.says({ kind: 'done', report: JSON.stringify(MATCH), pictures: PICTURES });
     expect(worker.ended).toBe(true);
     expect(pointsOf(store.state)).toEqual([[0, 10], [1, 11], [4, 14], [5, 15]]);
     expect(store.state.matching).toEqual({ kind: 'found', report: MATCH, pictures: PICTURES, isSettled: false });
+    expect(shownPreview(store.state)).toBeNull();
   });
 
   test.each<[string, Event]>([

@@ -3,7 +3,7 @@ import { beforeEach, expect, test, vi } from 'vitest';
 import { Runner } from '../../www/app/run.ts';
 import type { RunRequest, WarmUpRequest, WorkerMessage } from '../../www/compute/messages.ts';
 import { wholePairs } from '../../www/store/order.ts';
-import { shownPreview } from '../../www/store/job.ts';
+import { shownPreview } from '../../www/store/preview.ts';
 import { Store } from '../../www/store/store.ts';
 import { fakeWorkers } from './fake-worker.ts';
 import { DOUBT, mesh, OUTPUT, READY, SWAPPED } from './fixtures.ts';

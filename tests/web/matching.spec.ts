@@ -48,8 +48,11 @@ test('landmarks are found for meshes without any, and the map goes through them'
   await expect(page.locator('#view-source')).toContainText('horse.obj');
   await expect(page.locator('.searching')).toHaveCount(0);
   await page.locator('#target-file').setInputFiles(cat);
+  // The map of the best pairs so far is seen soon.
+  await expect(page.locator('#view-source')).toContainText('coarse map', { timeout: 60_000 });
   const told = page.locator('.matched .told');
   await expect(told).toHaveText(/^(Sure|Doubtful)\. /, { timeout: 120_000 });
+  await expect(page.locator('#view-source')).not.toContainText('coarse map');
   await expect(page.locator('#step-landmarks')).toHaveAttribute('aria-current', 'step');
   const found = await pairs(page).count();
   expect(found).toBeGreaterThanOrEqual(4);

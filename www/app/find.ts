@@ -41,6 +41,9 @@ export class Finder {
         progress: (share) => {
           dispatch({ kind: 'search-progress', share });
         },
+        preview: (places) => {
+          dispatch({ kind: 'search-preview', places });
+        },
         done: (report, pictures) => {
           dispatch({ kind: 'search-done', report: JSON.parse(report) as MatchReport, pictures });
         },

@@ -7,6 +7,8 @@ import { askOnce } from './one-request.ts';
 /** What a search reports while it goes and when it ends. */
 export interface MatchListener {
   progress(share: number): void;
+  /** The coarse map of the best pairs so far: for each vertex of the source its place on the target. */
+  preview(places: Float32Array): void;
   /** The report as JSON, and a picture of each of its candidates. */
   done(report: string, pictures: readonly AnswerPicture[]): void;
   failed(failure: Failure): void;
@@ -17,10 +19,16 @@ export function startMatch(request: With<MatchRequest>, listener: MatchListener)
   const worker = new Worker(new URL('./match-worker.ts', import.meta.url), { type: 'module' });
   return askOnce<MatchMessage>(worker, request, {
     heard: (message) => {
-      if (message.kind === 'progress') {
-        listener.progress(message.share);
-      } else {
-        listener.done(message.report, message.pictures);
+      switch (message.kind) {
+        case 'progress':
+          listener.progress(message.share);
+          break;
+        case 'preview':
+          listener.preview(message.places);
+          break;
+        case 'done':
+          listener.done(message.report, message.pictures);
+          break;
       }
     },
     failed: (failure) => {

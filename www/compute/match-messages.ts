@@ -25,6 +25,8 @@ export interface AnswerPicture {
 export type MatchMessage =
   /** The share that is done, 0 to 1. */
   | { readonly kind: 'progress'; readonly share: number }
+  /** The coarse map of the best pairs so far: for each vertex of the source its place on the target. */
+  | { readonly kind: 'preview'; readonly places: Float32Array<ArrayBuffer> }
   /** The report as JSON, and a picture of each of its candidates. */
   | { readonly kind: 'done'; readonly report: string; readonly pictures: readonly AnswerPicture[] }
   | { readonly kind: 'failed'; readonly failure: Failure };

@@ -27,9 +27,15 @@ function tell(found: FoundLandmarks): void {
 async function search({ module, source, target, landmarks }: MatchRequest): Promise<void> {
   try {
     await init({ module_or_path: module });
-    const listener = progressListener((share) => {
-      post({ kind: 'progress', share });
-    });
+    const listener = progressListener(
+      (share) => {
+        post({ kind: 'progress', share });
+      },
+      (places) => {
+        const own = places as Float32Array<ArrayBuffer>;
+        post({ kind: 'preview', places: own }, [own.buffer]);
+      },
+    );
     tell(matchLandmarks(source, target, landmarks, listener));
   } catch (thrown) {
     post({ kind: 'failed', failure: failureOf(thrown) });

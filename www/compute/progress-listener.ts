@@ -1,21 +1,25 @@
-/** A listener for the core where only the progress is of interest. */
+/** A listener for the core where only the progress is of interest, and previews where they are asked for. */
 
-/** Passes the progress on, ignores everything else, and never asks for an early result. */
-export function progressListener(progress: (share: number) => void): {
+const nothing = (): void => undefined;
+
+/** Passes the progress and the previews on, ignores everything else, and never asks for an early result. */
+export function progressListener(
+  progress: (share: number) => void,
+  preview: (places: Float32Array) => void = nothing,
+): {
   readonly progress: (stage: string, sentence: string, share: number) => void;
   readonly relaxes: () => void;
   readonly found: () => void;
-  readonly preview: () => void;
+  readonly preview: (places: Float32Array) => void;
   readonly wantsResult: () => boolean;
 } {
-  const nothing = (): void => undefined;
   return {
     progress: (_stage, _sentence, share) => {
       progress(share);
     },
     relaxes: nothing,
     found: nothing,
-    preview: nothing,
+    preview,
     wantsResult: () => false,
   };
 }

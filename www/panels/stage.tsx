@@ -3,7 +3,7 @@ import type { VNode } from 'preact';
 import { integer } from '../numbers.ts';
 import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
-import { shownPreview } from '../store/job.ts';
+import { shownPreview } from '../store/preview.ts';
 import type { MeshFile, State } from '../store/state.ts';
 import type { PartProps } from './actions.ts';
 import { CompareBar, comparedCaptions } from './compare-view.tsx';

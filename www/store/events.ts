@@ -111,6 +111,8 @@ export type Event =
   /** A search for landmarks begins. */
   | { readonly kind: 'search-begun' }
   | { readonly kind: 'search-progress'; readonly share: number }
+  /** The coarse map of the best pairs that a search has found so far: for each vertex of the source its place on the target. */
+  | { readonly kind: 'search-preview'; readonly places: Float32Array }
   /** The search is given up, or its answer is no longer shown. */
   | { readonly kind: 'search-closed' }
 

@@ -84,8 +84,3 @@ export function advanced(job: Running, progress: Progress): Running {
   const falls = stage === 'relaxation' && energy !== null && energy < (present.at(-1) ?? Infinity);
   return { ...job, progress, finish, energies: falls ? [...job.energies.slice(0, -1), [...present, energy]] : job.energies };
 }
-
-/** The preview that the page shows; `null` where no run of the meshes on the page has one. */
-export function shownPreview({ job, meshes }: { readonly job: Job; readonly meshes: Work['meshes'] }): Float32Array | null {
-  return job.kind === 'running' && job.inputs.meshes[0] === meshes[0] && job.inputs.meshes[1] === meshes[1] ? job.preview : null;
-}

@@ -11,6 +11,8 @@ export interface Searching {
   readonly of: readonly Pair[];
   /** The share that is done, from 0 to 1. */
   readonly share: number;
+  /** The coarse map of the best pairs so far: for each vertex of the source its place on the target; `null` before the first. */
+  readonly preview: Float32Array | null;
 }
 
 /** The answer of a search for the meshes on the page. */

@@ -182,7 +182,9 @@ export function update(state: State, event: Event): State {
     case 'search-begun':
       return withSearch(state);
     case 'search-progress':
-      return withSearched(state, event.share);
+      return withSearched(state, { share: event.share });
+    case 'search-preview':
+      return withSearched(state, { preview: event.places });
     case 'search-done':
       return withFound(state, event.report, event.pictures);
     case 'candidate-taken':

@@ -5,6 +5,7 @@ import { isSamePoint, isWhole, SIDES } from '../landmarks.ts';
 import { pairLocked } from '../messages.ts';
 import type { Candidate, MatchReport, Question } from '../report.ts';
 import type { Event } from './events.ts';
+import type { Searching } from './matching.ts';
 import { withNewPairs, withSuggestions } from './pairs.ts';
 import type { State } from './state.ts';
 
@@ -17,12 +18,12 @@ export function canSearch({ ready, meshes, job, matching }: State): boolean {
 
 /** Begins a search for what is on the page. */
 export function withSearch(state: State): State {
-  return canSearch(state) ? { ...state, matching: { kind: 'searching', of: state.pairs, share: 0 }, error: null } : state;
+  return canSearch(state) ? { ...state, matching: { kind: 'searching', of: state.pairs, share: 0, preview: null }, error: null } : state;
 }
 
-/** Stores the progress of the search. */
-export function withSearched(state: State, share: number): State {
-  return state.matching?.kind === 'searching' ? { ...state, matching: { ...state.matching, share } } : state;
+/** Stores how far the search has come. */
+export function withSearched(state: State, news: Partial<Pick<Searching, 'share' | 'preview'>>): State {
+  return state.matching?.kind === 'searching' ? { ...state, matching: { ...state.matching, ...news } } : state;
 }
 
 function arePoints({ points }: Pair, [source, target]: Points): boolean {

@@ -2,7 +2,7 @@
 import { SIDES } from '../landmarks.ts';
 import type { StageFrame, Stops } from '../method/hands.ts';
 import { shownDefects } from '../store/defects.ts';
-import { shownPreview } from '../store/job.ts';
+import { shownPreview } from '../store/preview.ts';
 import type { State } from '../store/state.ts';
 import { upOf } from '../store/work.ts';
 import type { Viewer } from '../wasm/page.js';

@@ -6,28 +6,21 @@ use super::canvas::Viewer;
 use super::reading::{named, parsed};
 use crate::io::landmark_file::LandmarkPoint;
 use crate::landmarks::MeshSide;
-use crate::math::rigid3::laid_on;
 use crate::scene::camera::LookFrom;
 use crate::scene::upright::proposed_up;
 use crate::scene::{Camera, Glide, UpAxis};
-use glam::{DQuat, DVec3, Quat, Vec2};
+use glam::{Quat, Vec2, Vec3};
 use wasm_bindgen::prelude::*;
-
-/// The least number of pairs that tell how one body lies to another.
-const LEAST_TO_TURN: usize = 3;
 
 impl Viewer {
     /// The turn of the other body that lays the points of pairs nearest to their partners on this one.
     fn turn_from_other(&self, side: MeshSide, pairs: &str) -> Result<Option<Quat>, JsValue> {
         let pairs: Vec<[LandmarkPoint; 2]> = parsed("landmarks", pairs)?;
-        let place = |side: MeshSide, [a, b]: [LandmarkPoint; 2]| {
-            self.sides[side].place_of([a, b][side]).map(|place| place.as_dvec3())
-        };
+        let place = |side: MeshSide, ends: [LandmarkPoint; 2]| self.sides[side].place_of(ends[side]);
         let places =
             pairs.into_iter().filter_map(|pair| Some((place(side.other(), pair)?, place(side, pair)?)));
-        let (from, onto): (Vec<DVec3>, Vec<DVec3>) = places.unzip();
-        let turn = (from.len() >= LEAST_TO_TURN).then(|| laid_on(&from, &onto).rotation);
-        Ok(turn.map(|turn| DQuat::from_mat3(&turn).as_quat()))
+        let (from, onto): (Vec<Vec3>, Vec<Vec3>) = places.unzip();
+        Ok(Camera::turn_onto(&from, &onto))
     }
 }
 
