@@ -158,30 +158,14 @@ pub(super) fn keeps_sides(reflections: [&[Reflection]; 2], pairs: &[[usize; 2]])
 mod tests {
     use super::super::options::MatchOptions;
     use super::super::shape::Body;
-    use super::super::test_bodies::ball_with_ends;
+    use super::super::test_bodies::four_footed;
     use super::*;
-    use crate::mesh::SurfaceMesh;
     use crate::monitor::Silent;
     use glam::DVec3;
 
-    /// Four feet, the hind ones nearer to each other, a head before and above them and a tail behind.
-    const ENDS: [DVec3; 6] = [
-        DVec3::new(0.7, 0.6, -0.6),
-        DVec3::new(0.7, -0.6, -0.6),
-        DVec3::new(-0.6, 0.4, -0.8),
-        DVec3::new(-0.6, -0.4, -0.8),
-        DVec3::new(0.9, 0.0, 0.6),
-        DVec3::new(-1.0, 0.0, 0.2),
-    ];
-
-    /// A ball with a limb at each of the ends.
-    fn body() -> SurfaceMesh {
-        ball_with_ends(&ENDS.map(|end| (end, 2.0)), 30.0)
-    }
-
     #[test]
     fn the_partners_of_a_body_are_mirror_images() {
-        let mesh = body();
+        let mesh = four_footed();
         let options = MatchOptions::default();
         let body = Body { mesh: &mesh, given: &[], may_mark: None };
         let shape = Shape::new(body, &options, &mut Silent).unwrap();

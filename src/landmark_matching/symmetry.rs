@@ -74,22 +74,11 @@ fn injections(sources: usize, targets: usize, missing: usize) -> Vec<Vec<[usize;
 mod tests {
     use super::super::options::MatchOptions;
     use super::super::shape::Body;
-    use super::super::test_bodies::ball_with_ends;
+    use super::super::test_bodies::{ENDS, four_footed};
     use super::*;
     use crate::mesh::VertexId;
     use crate::mesh::generators::icosphere;
     use crate::monitor::Silent;
-    use glam::DVec3;
-
-    /// Two fore feet, two hind ones, which are nearer to each other, a head and a tail; the left ones come first.
-    const ENDS: [DVec3; 6] = [
-        DVec3::new(0.7, 0.6, -0.6),
-        DVec3::new(0.7, -0.6, -0.6),
-        DVec3::new(-0.6, 0.4, -0.8),
-        DVec3::new(-0.6, -0.4, -0.8),
-        DVec3::new(0.9, 0.0, 0.6),
-        DVec3::new(-1.0, 0.0, 0.2),
-    ];
 
     /// Where the ends of a body go that is matched with itself, each by its number, by the cheapest assignment that keeps left and right;
     /// the end `given[0]` is given to go to the end `given[1]`.
@@ -99,7 +88,7 @@ mod tests {
             let distance = |v: &VertexId| ball.positions()[*v].distance(ENDS[end].normalize());
             ball.vertices().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
         };
-        let mesh = ball_with_ends(&ENDS.map(|end| (end, 2.0)), 30.0);
+        let mesh = four_footed();
         let options = MatchOptions::default();
         let shapes = given.map(|end| {
             let body = Body { mesh: &mesh, given: &[at(end)], may_mark: None };

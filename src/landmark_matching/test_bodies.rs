@@ -14,3 +14,19 @@ pub(super) fn ball_with_ends(ends: &[(DVec3, f64)], sharpness: f64) -> SurfaceMe
     let height = |p: DVec3| 1.0 + ends.iter().map(|e| end(p, e)).sum::<f64>();
     ball.with_positions(ball.positions().iter().map(|&p| height(p) * p).collect())
 }
+
+/// The ends of [`four_footed`]: two fore feet, two hind ones, which are nearer to each other, a head before and above them, and a tail
+/// behind; the left feet come first.
+pub(super) const ENDS: [DVec3; 6] = [
+    DVec3::new(0.7, 0.6, -0.6),
+    DVec3::new(0.7, -0.6, -0.6),
+    DVec3::new(-0.6, 0.4, -0.8),
+    DVec3::new(-0.6, -0.4, -0.8),
+    DVec3::new(0.9, 0.0, 0.6),
+    DVec3::new(-1.0, 0.0, 0.2),
+];
+
+/// A ball with a limb at each of [`ENDS`], symmetric about the plane y = 0.
+pub(super) fn four_footed() -> SurfaceMesh {
+    ball_with_ends(&ENDS.map(|end| (end, 2.0)), 30.0)
+}
