@@ -6,7 +6,7 @@ use super::pair::{MatchedPair, PairOrigin};
 use super::search::Assignment;
 use super::shape::Shape;
 use crate::landmarks::MeshSide;
-use crate::mesh::surface_index::SurfaceIndex;
+use crate::mesh::resampling::resampled;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::MapPreview;
 use glam::DVec3;
@@ -25,7 +25,7 @@ pub struct CoarsePicture {
 
 impl CoarsePicture {
     /// The place of each vertex of the coarse source on the coarse target.
-    pub fn images(&self) -> Vec<DVec3> {
+    pub fn images(&self) -> TiVec<VertexId, DVec3> {
         self.target_from_source.iter().map(|image| image.position(&self.target)).collect()
     }
 }
@@ -39,19 +39,12 @@ pub(super) struct PictureOnMesh<'a> {
 }
 
 impl MapPreview for PictureOnMesh<'_> {
-    /// The images of the vertices of the source, each by the nearest place of the coarse source; those of the target are not known.
+    /// The images of the vertices of the source, each by its place on the coarse source; those of the target are not known.
     fn images(&self, of: MeshSide) -> Option<Vec<DVec3>> {
         if of == MeshSide::Target {
             return None;
         }
-        let CoarsePicture { source, .. } = self.picture;
-        let (index, images) = (SurfaceIndex::new(source), self.picture.images());
-        let image = |&p: &DVec3| {
-            let SurfacePoint { face, barycentric } = index.nearest(p).point;
-            let corners = source.triangles()[face];
-            (0..3).map(|k| barycentric[k] * images[corners[k].index()]).sum()
-        };
-        Some(self.source.positions().iter().map(image).collect())
+        Some(resampled(&self.picture.images(), &self.picture.source, self.source, |_| None).raw)
     }
 }
 

@@ -4,8 +4,7 @@ use super::candidate::Candidate;
 use super::difference::{Difference, DifferenceKind};
 use super::pair::MatchedPair;
 use super::shape::Shape;
-use crate::mesh::SurfacePoint;
-use crate::mesh::surface_index::SurfaceIndex;
+use crate::mesh::resampling::resampled;
 use glam::DVec3;
 
 /// Images farther apart than this, in units of the root of the target's area, are at different places; landmarks of SHREC07 are judged by
@@ -76,17 +75,13 @@ impl Parting {
         let [a, b] = [&first.picture, &second.picture];
         let root = a.target.area().sqrt();
         let areas = a.source.vertex_areas();
-        let index = SurfaceIndex::new(&b.source);
+        let others = resampled(&b.images(), &b.source, &a.source, |_| None);
         let mut parting = Self { share: 0.0, places: Vec::new() };
         let mut total = 0.0;
         for v in a.source.vertices() {
             let source = a.source.positions()[v];
             let image = a.target_from_source[v].position(&a.target);
-            let SurfacePoint { face, barycentric } = index.nearest(source).point;
-            let corners = b.source.triangles()[face];
-            let other: DVec3 =
-                (0..3).map(|k| barycentric[k] * b.target_from_source[corners[k]].position(&b.target)).sum();
-            let place = PartedPlace { source, images: [image, other] };
+            let place = PartedPlace { source, images: [image, others[v]] };
             total += areas[v];
             if place.apart() / root > APART {
                 parting.share += areas[v];

@@ -21,6 +21,7 @@ mod place;
 mod polygon;
 mod refined;
 pub mod repair;
+pub mod resampling;
 pub mod rims;
 pub(crate) mod segment_index;
 pub mod soup;
