@@ -38,6 +38,9 @@ export interface Pair {
 export const USUAL_RADIUS = 0.02;
 export const MAX_RADIUS = 0.25;
 
+/** The least number of pairs that tell how one body lies to the other. */
+export const PAIRS_TO_TURN = 3;
+
 /** A pair with both its points. */
 export interface WholePair extends Pair {
   readonly points: readonly [SurfacePoint, SurfacePoint];

@@ -33,7 +33,7 @@ const ROOM: f32 = 5.0;
 const NEAREST: f32 = 0.12;
 
 /// The least number of pairs of points that tell how one body lies to another.
-const LEAST_TO_TURN: usize = 3;
+pub const LEAST_TO_TURN: usize = 3;
 
 /// A direction to look from.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]

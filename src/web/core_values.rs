@@ -8,6 +8,7 @@ use crate::landmarks::{LEAST_LANDMARKS, MeshSide};
 use crate::mesh::repair::RepairOptions;
 use crate::pipeline::{Choices, OwnConeOptions, Scheme};
 use crate::scene::UpAxis;
+use crate::scene::camera::LEAST_TO_TURN;
 use crate::transfer::{Carrying, Raster, USUAL_GIVER};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
@@ -20,6 +21,8 @@ pub struct CoreValues {
     choices: Choices,
     /// The number of landmark pairs that a map needs.
     least_landmarks: usize,
+    /// The number of landmark pairs that tell how one body lies to the other.
+    least_to_turn: usize,
     /// The most pairs of a landmark file.
     most_pairs: usize,
     /// The largest radius of a soft pair.
@@ -55,6 +58,7 @@ pub fn core_values() -> Result<String, JsValue> {
     let values = CoreValues {
         choices: Choices::default(),
         least_landmarks: LEAST_LANDMARKS,
+        least_to_turn: LEAST_TO_TURN,
         most_pairs: MAX_PAIRS,
         largest_radius: MAX_RADIUS,
         most_landmarks_with_own_cones: OwnConeOptions::default().most_landmarks,

@@ -2,7 +2,7 @@
 import { beforeAll, expect, test } from 'vitest';
 import { LARGEST_FILE } from '../../www/app/open.ts';
 import { Desk, SIZES } from '../../www/bring/desk.ts';
-import { MAX_RADIUS } from '../../www/landmarks.ts';
+import { MAX_RADIUS, PAIRS_TO_TURN } from '../../www/landmarks.ts';
 import { MAP_ENDING } from '../../www/map-files.ts';
 import { MOST_LANDMARKS_WITH_OWN_CONES, USUAL_OPTIONS, USUAL_SCHEME } from '../../www/options.ts';
 import { MAP_EXPORTS } from '../../www/panels/exports.ts';
@@ -36,6 +36,7 @@ test('how a mesh stands, what of it may be repaired, and how large its file may 
 
 test('how many landmarks there must be and may be, and how soft', () => {
   expect(MIN_PAIRS).toBe(core.leastLandmarks);
+  expect(PAIRS_TO_TURN).toBe(core.leastToTurn);
   expect(MOST_PAIRS).toBe(core.mostPairs);
   expect(MAX_RADIUS).toBe(core.largestRadius);
 });

@@ -2,7 +2,7 @@
 import type { VNode } from 'preact';
 import { useState } from 'preact/hooks';
 import type { Side } from '../landmarks.ts';
-import { isWhole, otherSide } from '../landmarks.ts';
+import { isWhole, otherSide, PAIRS_TO_TURN } from '../landmarks.ts';
 import { shownDefects } from '../store/defects.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { Axis, State } from '../store/state.ts';
@@ -40,9 +40,6 @@ const LINKS: Readonly<Record<State['ui']['link'], string>> = {
 
 /** The turn of one press, in degrees; six presses turn by a right angle. */
 const ROLL = 15;
-
-/** The landmark pairs that tell how one body lies to the other. */
-const PAIRS_TO_TURN = 3;
 
 function Sides({ state, actions, side }: Props): VNode {
   const pairs = state.pairs.filter(isWhole).length;
