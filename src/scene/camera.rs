@@ -214,8 +214,10 @@ impl Camera {
         turn.map(|turn| DQuat::from_mat3(&turn).as_quat())
     }
 
-    /// Looks at its body as `other` looks at its own, where `turn` takes that body to this one; up axis, target and distance stay.
+    /// Looks at its body as `other` looks at its own, where `turn` takes that body to this one. The axis nearest to the one that is up there
+    /// points up; target and distance stay.
     pub fn look_like(&mut self, other: &Self, turn: Quat) {
+        self.up = UpAxis::nearest(turn * other.up.direction());
         let seen = self.up.basis().inverse() * turn * other.turn();
         let (yaw, down, left) = seen.to_euler(EulerRot::YXZ);
         (self.yaw, self.pitch, self.roll) = (yaw.rem_euclid(TAU), -down, (-left).rem_euclid(TAU));
@@ -304,7 +306,10 @@ mod tests {
                 ] {
                     assert!(a.distance(turn * b) < 1e-5, "{up:?} {turn}");
                 }
-                assert_eq!(Some(camera), Camera::from_numbers(up, &camera.to_numbers()));
+                assert_eq!(Some(camera), Camera::from_numbers(camera.up, &camera.to_numbers()));
+                // The nearest of six directions is at most so far away.
+                let upwards = turn * other.up.direction();
+                assert!(camera.up.direction().dot(upwards) > 3.0_f32.sqrt().recip() - 1e-6, "{up:?} {turn}");
             }
         }
     }

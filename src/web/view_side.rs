@@ -301,8 +301,12 @@ impl Side {
         self.look == Look::Whole && (yaw, pitch, roll) == (first.yaw, first.pitch, first.roll)
     }
 
-    /// Another axis points up; where the user has not moved the camera, the whole mesh stays in view.
+    /// Another axis points up; where the user has not moved the camera, the whole mesh stays in view. Nothing changes where the axis is up
+    /// already.
     pub fn set_up(&mut self, up: UpAxis) {
+        if self.camera.up == up {
+            return;
+        }
         self.camera.set_up(up);
         if self.look == Look::Whole {
             self.fit();

@@ -84,10 +84,16 @@ export class Cameras {
     });
   }
 
-  /** Turns a view so that its whole mesh is seen as the other one is; `pairs` are points of both meshes that correspond, as JSON. */
-  lookAsOther(side: Side, pairs: string): void {
+  /**
+   * Turns a view so that its whole mesh is seen as the other one is; `pairs` are points of both meshes that correspond, as JSON. `turned` is
+   * called with the axis that points up then; where too few pairs tell how, the view stays and it is not called.
+   */
+  lookAsOther(side: Side, pairs: string, turned: (up: Axis) => void): void {
     this.#one(side, 'smoothly', (viewer) => {
-      viewer.lookAsOther(side, pairs);
+      const up = viewer.lookAsOther(side, pairs) as Axis | undefined;
+      if (up !== undefined) {
+        turned(up);
+      }
     });
   }
 

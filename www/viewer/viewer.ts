@@ -176,14 +176,11 @@ export class Views {
   /** Turns a view so that its mesh is seen as the other one is, by the pairs on the page; it stays where fewer than three tell how. */
   lookAsOther(side: Side): void {
     const pairs = JSON.stringify(this.#state.pairs.filter(isWhole).map(({ points }) => points));
-    const axis = this.#viewer?.upAsOther(side, pairs) as Axis | undefined;
-    if (axis === undefined) {
-      return;
-    }
-    // With the same axis up both bodies turn alike where the cameras are linked.
-    this.#listener.dispatch({ kind: 'up', side, axis });
-    this.#cameras.lookAsOther(side, pairs);
-    this.#moved();
+    this.#cameras.lookAsOther(side, pairs, (axis) => {
+      // With the same axis up both bodies turn alike where the cameras are linked.
+      this.#listener.dispatch({ kind: 'up', side, axis });
+      this.#moved();
+    });
   }
 
   /** Turns the picture counter-clockwise, in degrees. */

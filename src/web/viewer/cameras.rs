@@ -24,6 +24,11 @@ impl Viewer {
     }
 }
 
+/// The name of an axis at the boundary.
+fn axis_name(axis: UpAxis) -> Option<String> {
+    serde_json::to_value(axis).ok().and_then(|name| name.as_str().map(str::to_owned))
+}
+
 #[wasm_bindgen]
 impl Viewer {
     /// Makes a view's camera glide from now on, for this time, to where it is put; without a duration it jumps.
@@ -112,36 +117,23 @@ impl Viewer {
     pub fn proposed_up(&self, side: usize) -> Result<Option<String>, JsValue> {
         let mesh = self.sides[mesh_side(side)?].mesh.as_ref();
         let axis = mesh.and_then(|mesh| proposed_up(&mesh.checked.mesh));
-        let word = axis.and_then(|axis| serde_json::to_value(axis).ok());
-        Ok(word.and_then(|word| word.as_str().map(str::to_owned)))
+        Ok(axis.and_then(axis_name))
     }
 
-    /// The axis of a mesh that points up where both are seen alike; `pairs` are landmark points of both meshes, as JSON. `undefined` where
-    /// fewer than three tell how one body lies to the other.
-    ///
-    /// # Errors
-    /// `{"code": "landmarks", "message"}`.
-    #[wasm_bindgen(js_name = upAsOther)]
-    pub fn up_as_other(&self, side: usize, pairs: &str) -> Result<Option<String>, JsValue> {
-        let side = mesh_side(side)?;
-        let Some(turn) = self.turn_from_other(side, pairs)? else { return Ok(None) };
-        let axis = UpAxis::nearest(turn * self.sides[side.other()].camera.up.direction());
-        Ok(serde_json::to_value(axis).ok().and_then(|word| word.as_str().map(str::to_owned)))
-    }
-
-    /// Turns a view so that its whole mesh is seen as the other one is, by such pairs; the view stays where fewer than three tell how.
+    /// Turns a view so that its whole mesh is seen as the other one is; `pairs` are landmark points of both meshes, as JSON. The axis that
+    /// points up then, likewise; `undefined`, and the view stays, where fewer than three pairs tell how one body lies to the other.
     ///
     /// # Errors
     /// `{"code": "landmarks", "message"}`.
     #[wasm_bindgen(js_name = lookAsOther)]
-    pub fn look_as_other(&mut self, side: usize, pairs: &str) -> Result<(), JsValue> {
+    pub fn look_as_other(&mut self, side: usize, pairs: &str) -> Result<Option<String>, JsValue> {
         let side = mesh_side(side)?;
-        let Some(turn) = self.turn_from_other(side, pairs)? else { return Ok(()) };
+        let Some(turn) = self.turn_from_other(side, pairs)? else { return Ok(None) };
         let other = self.sides[side.other()].camera;
         let side = &mut self.sides[side];
         side.camera.look_like(&other, turn);
         side.fit();
-        Ok(())
+        Ok(axis_name(side.camera.up))
     }
 
     /// Brings what is seen at a place of a view to its middle, and turns about it from now on; whether there is anything.
