@@ -209,10 +209,14 @@ impl Healer<'_> {
         for vertex in vertices {
             let each = self.sheets[vertex.side].overlaps(vertex.vertex);
             let [newton, looking] = COSTS.map(|costs| costs * each);
+            if newton > most {
+                pulse.beat()?;
+                self.at_rest.insert(vertex);
+                continue;
+            }
             let looks = looks.filter(|_| newton + looking <= most);
-            pulse.beat_by(if looks.is_some() { newton + looking } else { newton.min(most) })?;
-            let star = if newton <= most { self.settled(vertex, looks) } else { None };
-            let Some(star) = star else {
+            pulse.beat_by(if looks.is_some() { newton + looking } else { newton })?;
+            let Some(star) = self.settled(vertex, looks) else {
                 self.at_rest.insert(vertex);
                 continue;
             };
