@@ -54,7 +54,7 @@ fn line(files: &Files) -> Result<String, String> {
 
 /// Compares the files and reports of two maps byte for byte, and returns how many files there are.
 fn same_files(first: &Mapped, again: &Mapped) -> Result<String, String> {
-    let (one, other) = (first.outputs(), again.outputs());
+    let [one, other] = [first, again].map(|mapped| mapped.outputs().collect::<Vec<_>>());
     let differing = one.iter().zip(&other).find(|(a, b)| a != b).map(|(a, _)| a.name);
     if let Some(name) = differing {
         return Err(format!("{name} is another file the second time"));

@@ -33,7 +33,7 @@ pub fn case(arguments: &Arguments) {
             Ok(mapped) => mapped,
             Err(outcome) => return println!("{name:24} {outcome:?}"),
         };
-        let written: usize = mapped.outputs().iter().map(|file| file.bytes.len()).sum();
+        let written: usize = mapped.outputs().map(|file| file.bytes.len()).sum();
         let faces = mapped.report().faces.source + mapped.report().faces.target;
         let (Some(before), Some(peak)) = (before, peak_mib(std::process::id())) else {
             return println!("this system does not tell what a process holds: use one with /proc");

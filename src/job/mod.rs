@@ -41,7 +41,7 @@ pub use matching::{
 pub use memory::{LEAST_MEMORY, MEMORY_PER_FACE, expected_memory};
 pub use mesh_file::{MeshFaults, MeshFileError, ReadMesh, read_mesh};
 pub use morph::{DrawnPoints, DrawnWay, MORPH_FILE, MorphError};
-pub use outputs::OutputFile;
+pub use outputs::{OutputFile, OutputFiles};
 pub use proof::{ProofError, prove};
 pub use proof_report::{
     DoubtfulReport, FaceCounts, LandmarkFigures, MatrixFigures, ProofFigures, ProofReport, SignCounts,

@@ -24,6 +24,31 @@ pub struct OutputFile {
     pub bytes: Vec<u8>,
 }
 
+/// The files of a result, each made when it is asked for: so one can be written and dropped before the next is made.
+#[must_use]
+pub struct OutputFiles<'a> {
+    job: &'a Job,
+    result: &'a MapResult,
+    look: &'a MapLook,
+    /// `None` for a map without pieces.
+    map: Option<MapFile>,
+    kinds: std::vec::IntoIter<OutputKind>,
+}
+
+impl Iterator for OutputFiles<'_> {
+    /// A file, or why it cannot be made.
+    type Item = Result<OutputFile, GlbError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let kind = self.kinds.next()?;
+        let bytes = match &self.map {
+            Some(map) => self.job.taken(map).wearing(self.look).output(kind),
+            None => self.job.bare_output(self.result, kind),
+        };
+        Some(bytes.map(|bytes| OutputFile { name: kind.file_name(), bytes }))
+    }
+}
+
 impl Job {
     /// The content of the map file of a result of this job; `None` where the map has no pieces: for other methods than the relaxed one, and where
     /// there is no overlay.
@@ -53,25 +78,28 @@ impl Job {
     }
 
     /// All files of a result of this job, the places in them those of the job's files; `look` is what the map carries.
-    ///
-    /// # Errors
-    /// [`GlbError`].
-    pub fn outputs(
-        &self,
-        result: &MapResult,
+    pub fn outputs<'a>(
+        &'a self,
+        result: &'a MapResult,
         choices: &Choices,
-        look: &MapLook,
-    ) -> Result<Vec<OutputFile>, GlbError> {
-        let file = |kind: OutputKind, bytes| OutputFile { name: kind.file_name(), bytes };
-        if let Some(map) = self.map_file(result, choices) {
-            let taken = self.taken(&map).wearing(look);
-            return taken.kinds().into_iter().map(|kind| Ok(file(kind, taken.output(kind)?))).collect();
-        }
-        Ok(vec![
-            file(OutputKind::Glb, self.bare_glb(result)?),
-            file(OutputKind::SourceImagesCsv, self.vertex_images(result)),
-            file(OutputKind::BaseDomain, self.base_domain(result)),
-        ])
+        look: &'a MapLook,
+    ) -> OutputFiles<'a> {
+        let map = self.map_file(result, choices);
+        let kinds = match &map {
+            Some(map) => self.taken(map).kinds(),
+            None => vec![OutputKind::Glb, OutputKind::SourceImagesCsv, OutputKind::BaseDomain],
+        };
+        OutputFiles { job: self, result, look, map, kinds: kinds.into_iter() }
+    }
+
+    /// A file of a result without pieces; empty for other kinds than those three that there are.
+    fn bare_output(&self, result: &MapResult, kind: OutputKind) -> Result<Vec<u8>, GlbError> {
+        Ok(match kind {
+            OutputKind::Glb => self.bare_glb(result)?,
+            OutputKind::SourceImagesCsv => self.vertex_images(result),
+            OutputKind::BaseDomain => self.base_domain(result),
+            _ => Vec::new(),
+        })
     }
 
     /// The source in the look that a result of this job carries, as GLB; a checkerboard where the map has no pieces.

@@ -48,6 +48,7 @@ pub enum Outcome {
 pub struct Mapped {
     job: Job,
     result: MapResult,
+    look: MapLook,
 }
 
 /// Reads the files, looks for findings and makes the map.
@@ -61,17 +62,18 @@ pub fn mapped(files: &Files, monitor: &mut dyn Monitor) -> Result<Mapped, Outcom
     job.findings(monitor).map_err(|_| Outcome::Stopped)?;
     let result = job.run(&PipelineOptions::default(), monitor);
     let result = result.map_err(|error| Outcome::of_job(&JobError::Pipeline(error)))?;
-    Ok(Mapped { job, result })
+    Ok(Mapped { job, result, look: MapLook::default() })
 }
 
 impl Mapped {
     /// Writes all files of the map, and has `conemap_verify` prove it.
     pub fn judged(&self, files: &Files) -> Outcome {
-        let Self { job, result } = self;
+        let Self { job, result, look } = self;
         if !result.report.certificate.as_ref().is_some_and(|certificate| certificate.bijective) {
             return Outcome::Wrong("a map without its certificate".into());
         }
-        if let Err(error) = job.outputs(result, &Choices::default(), &MapLook::default()) {
+        let failed = job.outputs(result, &Choices::default(), look).find_map(Result::err);
+        if let Some(error) = failed {
             return Outcome::refused(&error);
         }
         let Some(map) = job.map_file(result, &Choices::default()) else {
@@ -95,9 +97,10 @@ impl Mapped {
         }
     }
 
-    /// All files of the map, by name.
-    pub fn outputs(&self) -> Vec<OutputFile> {
-        self.job.outputs(&self.result, &Choices::default(), &MapLook::default()).expect("the map has files")
+    /// All files of the map, one after another.
+    pub fn outputs(&self) -> impl Iterator<Item = OutputFile> {
+        let files = self.job.outputs(&self.result, &Choices::default(), &self.look);
+        files.map(|file| file.expect("the map has files"))
     }
 
     /// The report of the map.

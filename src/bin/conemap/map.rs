@@ -61,8 +61,12 @@ fn write_folder(arguments: &MapArguments, job: &Job, result: &MapResult) -> Resu
     let paths = [&arguments.source, &arguments.target];
     let meshes = [input::mesh_bytes(paths[0])?, input::mesh_bytes(paths[1])?];
     let sets = MeshSets::of(paths.map(PathBuf::as_path), meshes.each_ref().map(Vec::as_slice));
-    let files = job.outputs(result, &arguments.choices, &sets.look(|files| job.look(files)))?;
-    outputs::write_all(folder, files.into_iter().map(|file| Ok((file.name, file.bytes))))
+    let look = sets.look(|files| job.look(files));
+    let files = job.outputs(result, &arguments.choices, &look);
+    outputs::write_all(
+        folder,
+        files.map(|file| file.map(|file| (file.name, file.bytes)).map_err(Failure::from)),
+    )
 }
 
 /// Reads the files and makes the map.
