@@ -37,11 +37,11 @@ pub fn textured_source(
         attributes["_DISTORTION"] = json!(document.attribute(&values, "SCALAR", 1));
     }
     // A morph target holds differences: with the weight 1 the sum is the target's.
-    let ends = skin.gathered(&node.target(&common.target_positions, frames));
-    let end_normals = skin.gathered(&common.target_normals);
+    let moves = difference(&skin.gathered(&node.target(&common.target_positions, frames)), &positions);
+    let turns = difference(&skin.gathered(&common.target_normals), &normals);
     let targets = json!([{
-        "POSITION": document.places(&difference(&ends, &positions)),
-        "NORMAL": document.attribute(&difference(&end_normals, &normals), "VEC3", 3)
+        "POSITION": document.places(&moves),
+        "NORMAL": document.attribute(&turns, "VEC3", 3)
     }]);
     let mesh = json!({
         "primitives": document.primitives(skin, &attributes, &targets),

@@ -5,11 +5,12 @@ use crate::io::picture::{WEBP, media_type};
 use serde_json::{Value, json};
 
 /// Appends a view, aligned to 4 bytes.
-fn push(bytes: &mut Vec<u8>, data: &[u8], target: Option<u32>) -> Value {
+fn push(bytes: &mut Vec<u8>, data: impl Iterator<Item = u8>, target: Option<u32>) -> Value {
     let offset = bytes.len();
-    bytes.extend_from_slice(data);
+    bytes.extend(data);
+    let length = bytes.len() - offset;
     bytes.resize(bytes.len().next_multiple_of(4), 0);
-    let mut view = json!({ "buffer": 0, "byteOffset": offset, "byteLength": data.len() });
+    let mut view = json!({ "buffer": 0, "byteOffset": offset, "byteLength": length });
     if let Some(target) = target {
         view["target"] = json!(target);
     }
@@ -31,7 +32,7 @@ pub(super) struct GlbDocument {
 // glTF 2.0 numbers things as OpenGL: 34962 ARRAY_BUFFER, 34963 ELEMENT_ARRAY_BUFFER, 5126 FLOAT, 5125 UNSIGNED_INT,
 // 10497 REPEAT, 9729 LINEAR, 9987 LINEAR_MIPMAP_LINEAR.
 impl GlbDocument {
-    fn view(&mut self, data: &[u8], target: Option<u32>) -> usize {
+    fn view(&mut self, data: impl Iterator<Item = u8>, target: Option<u32>) -> usize {
         self.views.push(push(&mut self.bytes, data, target));
         self.views.len() - 1
     }
@@ -43,7 +44,7 @@ impl GlbDocument {
 
     /// Numbers by vertex.
     pub(super) fn attribute(&mut self, values: &[f32], kind: &str, width: usize) -> usize {
-        let view = self.view(&floats(values), Some(34962));
+        let view = self.view(floats(values), Some(34962));
         self.accessor(
             json!({ "bufferView": view, "componentType": 5126, "count": values.len() / width, "type": kind }),
         )
@@ -60,7 +61,7 @@ impl GlbDocument {
 
     /// Numbers of an animation.
     pub(super) fn numbers(&mut self, values: &[f32]) -> usize {
-        let view = self.view(&floats(values), None);
+        let view = self.view(floats(values), None);
         let [low, high] = [f32::min, f32::max].map(|pick| values.iter().copied().reduce(pick));
         self.accessor(json!({
             "bufferView": view, "componentType": 5126, "count": values.len(), "type": "SCALAR",
@@ -69,8 +70,7 @@ impl GlbDocument {
     }
 
     fn indices(&mut self, triangles: &[[u32; 3]]) -> usize {
-        let bytes: Vec<u8> = triangles.iter().flatten().flat_map(|i| i.to_le_bytes()).collect();
-        let view = self.view(&bytes, Some(34963));
+        let view = self.view(triangles.iter().flatten().flat_map(|i| i.to_le_bytes()), Some(34963));
         let count = 3 * triangles.len();
         self.accessor(json!({ "bufferView": view, "componentType": 5125, "count": count, "type": "SCALAR" }))
     }
@@ -117,7 +117,7 @@ impl GlbDocument {
     }
 
     fn image(&mut self, picture: &[u8]) -> usize {
-        let view = self.view(picture, None);
+        let view = self.view(picture.iter().copied(), None);
         let kind = media_type(picture).unwrap_or("image/png");
         self.images.push(json!({ "bufferView": view, "mimeType": kind }));
         self.images.len() - 1
@@ -152,8 +152,8 @@ impl GlbDocument {
     }
 }
 
-fn floats(values: &[f32]) -> Vec<u8> {
-    values.iter().flat_map(|x| x.to_le_bytes()).collect()
+fn floats(values: &[f32]) -> impl Iterator<Item = u8> {
+    values.iter().flat_map(|x| x.to_le_bytes())
 }
 
 /// Lowest and highest coordinates.
@@ -166,17 +166,19 @@ fn bounds(positions: &[f32]) -> [[f32; 3]; 2] {
     [fold(f32::INFINITY, f32::min), fold(f32::NEG_INFINITY, f32::max)]
 }
 
-fn assemble(mut document: Vec<u8>, body: Vec<u8>) -> Vec<u8> {
+/// Puts what a file has before its binary chunk in front of the chunk's bytes, which are most of it and are not copied.
+fn assemble(mut document: Vec<u8>, mut body: Vec<u8>) -> Vec<u8> {
     document.resize(document.len().next_multiple_of(4), b' ');
     let total = 12 + 8 + document.len() + 8 + body.len();
-    let mut bytes = Vec::with_capacity(total);
-    bytes.extend(b"glTF");
-    bytes.extend(2_u32.to_le_bytes());
-    bytes.extend((total as u32).to_le_bytes());
-    for (kind, chunk) in [(b"JSON", document), (b"BIN\0", body)] {
-        bytes.extend((chunk.len() as u32).to_le_bytes());
-        bytes.extend(kind);
-        bytes.extend(chunk);
-    }
-    bytes
+    let mut head = Vec::with_capacity(total - body.len());
+    head.extend(b"glTF");
+    head.extend(2_u32.to_le_bytes());
+    head.extend((total as u32).to_le_bytes());
+    head.extend((document.len() as u32).to_le_bytes());
+    head.extend(b"JSON");
+    head.extend(document);
+    head.extend((body.len() as u32).to_le_bytes());
+    head.extend(b"BIN\0");
+    body.splice(0..0, head);
+    body
 }

@@ -273,12 +273,14 @@ impl<'a> TakenMap<'a> {
 
     /// Distortion of each triangle of [`Self::common`].
     fn triangle_distortion(&self) -> Vec<TriangleDistortion> {
-        let measured = self.measured();
+        // The rest of the common mesh, which is large, is dropped before the pieces are measured.
+        let pieces = self.common().pieces;
+        let by_piece = self.measured().by_piece;
         let local = |&piece: &u32| {
             let [source_face, target_face] = self.map.correspondence.pieces[piece as usize].faces;
-            TriangleDistortion { source_face, target_face, local: measured.by_piece[piece as usize] }
+            TriangleDistortion { source_face, target_face, local: by_piece[piece as usize] }
         };
-        self.common().pieces.iter().map(local).collect()
+        pieces.iter().map(local).collect()
     }
 
     /// Distortion around each vertex of a common mesh of this map.
