@@ -30,10 +30,10 @@ impl CoarsePicture {
     }
 }
 
-/// A coarse map on the full source.
+/// The coarse map of a candidate on the full source.
 pub(super) struct PictureOnMesh<'a> {
-    /// The map.
-    pub(super) picture: &'a CoarsePicture,
+    /// The candidate.
+    pub(super) candidate: &'a Candidate,
     /// The full source.
     pub(super) source: &'a SurfaceMesh,
 }
@@ -44,7 +44,13 @@ impl MapPreview for PictureOnMesh<'_> {
         if of == MeshSide::Target {
             return None;
         }
-        Some(resampled(&self.picture.images(), &self.picture.source, self.source, |_| None).raw)
+        let picture = &self.candidate.picture;
+        Some(resampled(&picture.images(), &picture.source, self.source, |_| None).raw)
+    }
+
+    fn found_pairs(&self) -> Vec<[usize; 2]> {
+        let found = self.candidate.pairs.iter().filter(|pair| pair.origin != PairOrigin::Given);
+        found.map(|pair| [pair.source.index(), pair.target.index()]).collect()
     }
 }
 

@@ -63,8 +63,8 @@ const IMPROVED: f64 = 0.95;
 
 /// Finds landmark pairs of two bodies beside the given ones, with alternatives and a verdict.
 ///
-/// The given pairs are in every candidate. The map of each candidate that is the best so far is offered as a preview. A monitor that wants a
-/// result gets the best candidates so far. The options bound the time: each candidate costs a coarse map.
+/// The given pairs are in every candidate. The map and the pairs of each candidate that is the best so far are offered as a preview. A
+/// monitor that wants a result gets the best candidates so far. The options bound the time: each candidate costs a coarse map.
 ///
 /// # Errors
 /// [`MatchError`]: cancellation, or given pairs that name missing vertices or one vertex twice.
@@ -132,7 +132,7 @@ impl Search<'_> {
         let place = self.found.partition_point(|other| other.score <= candidate.score);
         let is_best = place == 0;
         if is_best {
-            monitor.preview(&PictureOnMesh { picture: &candidate.picture, source: self.source });
+            monitor.preview(&PictureOnMesh { candidate: &candidate, source: self.source });
         }
         self.found.insert(place, candidate);
         Ok(is_best)

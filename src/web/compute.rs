@@ -6,6 +6,7 @@ use crate::demo::true_map;
 use crate::io::landmark_file;
 use crate::job::{BasePicture, Job, JobError, LookFiles, OutputKind, planned_stages};
 use crate::landmarks::MeshSide;
+use crate::mesh::check::CheckedMesh;
 use crate::monitor::{Cancelled, MapPreview, Monitor, PlannedStage, Progress, Stage, Step};
 use crate::pipeline::{Choices, MapResult, PipelineOptions};
 use crate::surface_map::measures::transfer::CommonMesh;
@@ -26,9 +27,10 @@ export interface RunListener {
   progress(stage: Stage, sentence: string, share: number, residual: number, energy: number): void;
   /**
    * The map as it is being made: by vertex of the checked source (those of landmarks inside faces may follow) its place on the target,
-   * three numbers each.
+   * three numbers each; and the landmark pairs of this map that were found, as the files number their vertices, the source's and the
+   * target's in turn.
    */
-  preview(places: Float32Array): void;
+  preview(places: Float32Array, pairs: Uint32Array): void;
   /** Landmark pairs that do not fit, before the map is made. */
   found(json: string): void;
   /** Whether to finish now with a whole map, only less relaxed; asked at most ten times a second. */
@@ -53,7 +55,11 @@ extern "C" {
     #[wasm_bindgen(method, catch)]
     fn relaxes(this: &RunListener) -> Result<(), JsValue>;
     #[wasm_bindgen(method, catch)]
-    fn preview(this: &RunListener, places: js_sys::Float32Array) -> Result<(), JsValue>;
+    fn preview(
+        this: &RunListener,
+        places: js_sys::Float32Array,
+        pairs: js_sys::Uint32Array,
+    ) -> Result<(), JsValue>;
     #[wasm_bindgen(method, catch)]
     fn found(this: &RunListener, json: &str) -> Result<(), JsValue>;
     #[wasm_bindgen(method, catch, js_name = wantsResult)]
@@ -85,6 +91,8 @@ pub(super) struct Messenger<'a> {
     begun: f64,
     /// Time that previews took, in milliseconds.
     previewing: f64,
+    /// The files' numbers of the vertices of both meshes; a vertex that is not listed keeps its number.
+    numbers: [Vec<usize>; 2],
 }
 
 impl<'a> Messenger<'a> {
@@ -100,7 +108,13 @@ impl<'a> Messenger<'a> {
             progress: Progress::new(Vec::new()),
             begun: js_sys::Date::now(),
             previewing: 0.0,
+            numbers: [Vec::new(), Vec::new()],
         }
+    }
+
+    /// From now on previews name the vertices of these meshes by their files' numbers.
+    pub(super) fn name_vertices(&mut self, meshes: [&CheckedMesh; 2]) {
+        self.numbers = meshes.map(CheckedMesh::file_from_vertex);
     }
 
     /// The stages that the run will pass.
@@ -149,8 +163,11 @@ impl Monitor for Messenger<'_> {
         }
         if let Some(places) = preview.images(MeshSide::Source) {
             let places = js_sys::Float32Array::from(&flat3(&places)[..]);
+            let number = |side: usize, v: usize| *self.numbers[side].get(v).unwrap_or(&v) as u32;
+            let pairs = preview.found_pairs().into_iter();
+            let pairs: Vec<u32> = pairs.flat_map(|[s, t]| [number(0, s), number(1, t)]).collect();
             // A page that does not listen is not a reason to stop.
-            let _ = self.listener.preview(places);
+            let _ = self.listener.preview(places, js_sys::Uint32Array::from(&pairs[..]));
         }
         self.previewing += js_sys::Date::now() - now;
     }

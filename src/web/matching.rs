@@ -68,6 +68,7 @@ pub fn match_landmarks(
         Ok::<_, JsValue>(mesh.into_checked())
     };
     let meshes = [read(source)?, read(target)?];
+    messenger.name_vertices([&meshes[0], &meshes[1]]);
     let given = landmark_file::read(landmarks.as_bytes()).map_err(|e| failure("landmarks", e))?;
     let found = match_meshes([&meshes[0], &meshes[1]], &given, &MatchOptions::default(), &mut messenger);
     let Matched { report, pictures } = found.map_err(|error| failure(error.code(), error))?;

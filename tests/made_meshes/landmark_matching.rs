@@ -105,17 +105,19 @@ fn with_one_landmark_every_limb_of_the_horse_finds_its_partner_on_the_cat() {
     assert!(found.candidates[1..].iter().all(|candidate| candidate.difference.is_some()));
 }
 
-/// Keeps the images of the last preview, and counts previews.
+/// Keeps the images and the pairs of the last preview, and counts previews.
 #[derive(Default)]
 struct Watcher {
     previews: usize,
     images: Vec<DVec3>,
+    pairs: Vec<[usize; 2]>,
 }
 
 impl Monitor for Watcher {
     fn preview(&mut self, preview: &dyn MapPreview) {
         self.previews += 1;
         self.images = preview.images(MeshSide::Source).unwrap();
+        self.pairs = preview.found_pairs();
         assert!(preview.images(MeshSide::Target).is_none());
     }
 
@@ -133,13 +135,19 @@ fn without_a_landmark_every_limb_of_the_horse_finds_its_partner_on_the_cat() {
     let found = match_landmarks(input, &MatchOptions::default(), &mut watcher).unwrap();
     all_feet_and_both_ends(&limbs(&demo, &found, &demo.target, |p| p));
     // The best map was seen before the end, but for tips that were moved a little.
-    let Watcher { previews, images } = watcher;
+    let Watcher { previews, images, pairs } = watcher;
     assert!((1..found.candidates.len()).contains(&previews), "{previews}");
     assert_eq!(images.len(), demo.source.vertex_count());
     let root = demo.target.area().sqrt();
     for pair in &found.candidates[0].pairs {
         let off = images[pair.source.index()].distance(demo.target.positions()[pair.target]);
         assert!(off < 0.1 * root, "{} {}: {off}", pair.source.0, pair.target.0);
+    }
+    // So were its pairs, as vertices of the full meshes.
+    assert_eq!(pairs.len(), found.candidates[0].pairs.len());
+    for [source, target] in pairs {
+        let off = images[source].distance(demo.target.positions()[VertexId::from(target)]);
+        assert!(off < 0.1 * root, "{source} {target}: {off}");
     }
 }
 

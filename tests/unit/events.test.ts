@@ -48,7 +48,7 @@ const HALF: State = { ...READY, pairs: [...FOUR, pair(5, 7, null)], nextId: 6 };
 const PROPOSAL: Proposal = { id: 5, of: 7, side: 1, point: 17 };
 const PROPOSED: State = { ...HALF, result: DONE.result, job: { kind: 'done' }, proposal: PROPOSAL };
 const TWO: State = { ...READY, pairs: FOUR.slice(0, 2) };
-const SEARCHING: State = { ...TWO, matching: { kind: 'searching', of: TWO.pairs, share: 0.25, preview: null } };
+const SEARCHING: State = { ...TWO, matching: { kind: 'searching', of: TWO.pairs, share: 0.25, preview: null, ghosts: [] } };
 const DOUBTS = [DOUBT];
 const DOUBTED: State = { ...READY, found: { doubts: DOUBTS, inputs: workOf(READY) }, findings: DOUBTS };
 const during = (job: Partial<typeof RUNNING>): State => ({ ...READY, job: { ...RUNNING, ...job } });
@@ -399,19 +399,19 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     before: { ...TWO, error: 'Something failed.' },
     event: {},
     step: null,
-    changes: { matching: { kind: 'searching', of: TWO.pairs, share: 0, preview: null }, error: null },
+    changes: { matching: { kind: 'searching', of: TWO.pairs, share: 0, preview: null, ghosts: [] }, error: null },
   },
   'search-progress': {
     before: SEARCHING,
     event: { share: 0.5 },
     step: null,
-    changes: { matching: { kind: 'searching', of: TWO.pairs, share: 0.5, preview: null } },
+    changes: { matching: { kind: 'searching', of: TWO.pairs, share: 0.5, preview: null, ghosts: [] } },
   },
   'search-preview': {
     before: SEARCHING,
-    event: { places: PLACES },
+    event: { places: PLACES, pairs: [[4, 14]] },
     step: null,
-    changes: { matching: { kind: 'searching', of: TWO.pairs, share: 0.25, preview: PLACES } },
+    changes: { matching: { kind: 'searching', of: TWO.pairs, share: 0.25, preview: PLACES, ghosts: [[4, 14]] } },
   },
   'search-done': {
     before: SEARCHING,

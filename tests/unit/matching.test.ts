@@ -3,15 +3,19 @@ import { beforeEach, describe, expect, test, vi } from 'vitest';
 import { Finder } from '../../www/app/find.ts';
 import type { MatchMessage, MatchRequest } from '../../www/compute/match-messages.ts';
 import type { Pair } from '../../www/landmarks.ts';
+import { SIDES } from '../../www/landmarks.ts';
 import { stepAfter } from '../../www/panels/steps.ts';
 import type { MatchReport } from '../../www/report.ts';
 import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
-import { shownPreview } from '../../www/store/preview.ts';
+import { landmarkFileOf } from '../../www/store/landmark-file.ts';
+import { ghostPairs, shownGhosts, shownPreview } from '../../www/store/preview.ts';
 import { answered, isDoubtful, listed, takenCandidate } from '../../www/store/search.ts';
 import { Store } from '../../www/store/store.ts';
 import type { State } from '../../www/store/state.ts';
 import { staleness } from '../../www/store/staleness.ts';
+import { workOf } from '../../www/store/work.ts';
+import { labelsOf, marksOf } from '../../www/viewer/pins.ts';
 import { fakeWorkers } from './fake-worker.ts';
 import { after, candidate, DEMO, DONE, FOUR, MATCH, mesh, pair, PICTURES, READY } from './fixtures.ts';
 
@@ -27,6 +31,44 @@ const sure = (...candidates: MatchReport['candidates']): Event => ({
   pictures: PICTURES,
 });
 const pointsOf = ({ pairs }: State): Pair['points'][] => pairs.map(({ points }) => points);
+
+describe('ghosts of a search', () => {
+  const SEEN: Event = { kind: 'search-preview', places: new Float32Array(9), pairs: [[4, 14], [5, 15]] };
+  const searched = after({ ...TWO, pairs: [...TWO.pairs, pair(7, null, 15)] }, SEARCH, SEEN);
+
+  test('have the next numbers, or that of the half pair which they would complete', () => {
+    expect(ghostPairs(searched)).toEqual([{ number: 8, points: [4, 14] }, { number: 7, points: [5, 15] }]);
+  });
+
+  test('are not part of the work', () => {
+    expect(workOf(searched)).toEqual(workOf({ ...TWO, pairs: [...TWO.pairs, pair(7, null, 15)] }));
+    expect(landmarkFileOf(searched).pairs).toEqual([[0, 10], [1, 11]]);
+    expect(searched.history).toBe(TWO.history);
+  });
+
+  test('are seen in both views as pins with a question mark, where pins are shown', () => {
+    for (const side of SIDES) {
+      const marks = JSON.parse(marksOf(searched, side)) as unknown[];
+      expect(marks).toHaveLength(5);
+      expect(marks.slice(3)).toEqual([
+        { point: [4, 14][side], colour: 7, stand: 'ghost', cone: null },
+        { point: [5, 15][side], colour: 6, stand: 'ghost', cone: null },
+      ]);
+      expect(labelsOf(searched, side).map(({ text }) => text)).toEqual(['1', '2', '7', '8?', '7?']);
+    }
+    expect(ghostPairs(after(searched, { kind: 'style', style: { markers: false } }))).toEqual([]);
+  });
+
+  test.each<[string, Event]>([
+    ['its answer', FOUND],
+    ['its end', { kind: 'search-closed' }],
+    ['another mesh', { kind: 'swap-meshes' }],
+    ['another point', { kind: 'point-picked', side: 0, point: 9 }],
+    ['a run', { kind: 'run-started' }],
+  ])('go with %s', (_, event) => {
+    expect(shownGhosts(after(searched, event))).toEqual([]);
+  });
+});
 
 describe('found pairs', () => {
   test('come behind the whole pairs that were given, which keep ids, numbers, names and locks', () => {
@@ -259,13 +301,15 @@ describe('the worker of a search', () => {
     expect(store.state.matching).toMatchObject({ kind: 'searching', share: 0.5 });
     expect(shownPreview(store.state)).toBeNull();
     const places = new Float32Array(9);
-    worker.says({ kind: 'preview', places });
+    worker.says({ kind: 'preview', places, pairs: [[3, 13], [4, 14]] });
     expect(shownPreview(store.state)).toBe(places);
+    expect(shownGhosts(store.state)).toEqual([[3, 13], [4, 14]]);
     worker.says({ kind: 'done', report: JSON.stringify(MATCH), pictures: PICTURES });
     expect(worker.ended).toBe(true);
     expect(pointsOf(store.state)).toEqual([[0, 10], [1, 11], [4, 14], [5, 15]]);
     expect(store.state.matching).toEqual({ kind: 'found', report: MATCH, pictures: PICTURES, isSettled: false });
     expect(shownPreview(store.state)).toBeNull();
+    expect(shownGhosts(store.state)).toEqual([]);
   });
 
   test.each<[string, Event]>([

@@ -31,13 +31,20 @@ test('landmarks are found for meshes without any, and the map goes through them'
   await expect(pairs(page)).toHaveCount(0);
   await expect(page.locator('#run')).toBeDisabled();
 
-  // A search that is given up leaves nothing behind.
+  // While it goes on, both views show the best pairs so far as ghosts. A search that is given up leaves nothing behind.
   const find = page.getByRole('button', { name: 'Find landmarks' });
   const progress = page.getByRole('progressbar', { name: 'Looking for landmarks' });
   await find.click();
   await expect(progress).toBeVisible();
+  const labels = page.locator('.labels span:visible');
+  for (const view of ['#view-source', '#view-target']) {
+    await expect(page.locator(view).locator(labels).first()).toHaveText(/^\d+\?$/, { timeout: 60_000 });
+  }
+  await expect(pairs(page)).toHaveCount(0);
+  await page.screenshot({ path: `${ROOT}test-results/ghost-pairs.png` });
   await page.getByRole('button', { name: 'Stop looking' }).click();
   await expect(progress).toBeHidden();
+  await expect(labels).toHaveCount(0);
   await expect(pairs(page)).toHaveCount(0);
 
   // For two meshes of the user the search begins by itself, and a click on one of them would end it. When it is finished, it has placed
@@ -53,6 +60,7 @@ test('landmarks are found for meshes without any, and the map goes through them'
   const told = page.locator('.matched .told');
   await expect(told).toHaveText(/^(Sure|Doubtful)\. /, { timeout: 120_000 });
   await expect(page.locator('#view-source')).not.toContainText('coarse map');
+  await expect(labels.filter({ hasText: '?' })).toHaveCount(0);
   await expect(page.locator('#step-landmarks')).toHaveAttribute('aria-current', 'step');
   const found = await pairs(page).count();
   expect(found).toBeGreaterThanOrEqual(4);

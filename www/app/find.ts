@@ -41,8 +41,8 @@ export class Finder {
         progress: (share) => {
           dispatch({ kind: 'search-progress', share });
         },
-        preview: (places) => {
-          dispatch({ kind: 'search-preview', places });
+        preview: (places, pairs) => {
+          dispatch({ kind: 'search-preview', places, pairs });
         },
         done: (report, pictures) => {
           dispatch({ kind: 'search-done', report: JSON.parse(report) as MatchReport, pictures });

@@ -21,12 +21,15 @@ export interface AnswerPicture {
   readonly places: readonly [Float32Array, Float32Array];
 }
 
+/** Found pairs: vertices of the source's and of the target's file. */
+export type FoundPairs = readonly (readonly [number, number])[];
+
 /** The messages of the worker. */
 export type MatchMessage =
   /** The share that is done, 0 to 1. */
   | { readonly kind: 'progress'; readonly share: number }
-  /** The coarse map of the best pairs so far: for each vertex of the source its place on the target. */
-  | { readonly kind: 'preview'; readonly places: Float32Array<ArrayBuffer> }
+  /** The coarse map of the best pairs so far: for each vertex of the source its place on the target; and those pairs that were found. */
+  | { readonly kind: 'preview'; readonly places: Float32Array<ArrayBuffer>; readonly pairs: FoundPairs }
   /** The report as JSON, and a picture of each of its candidates. */
   | { readonly kind: 'done'; readonly report: string; readonly pictures: readonly AnswerPicture[] }
   | { readonly kind: 'failed'; readonly failure: Failure };

@@ -2,7 +2,7 @@
 import init, { matchLandmarks } from '../wasm/core.js';
 import type { MatchReport } from '../report.ts';
 import type { FoundLandmarks } from '../wasm/core.js';
-import type { AnswerPicture, MatchMessage, MatchRequest } from './match-messages.ts';
+import type { AnswerPicture, FoundPairs, MatchMessage, MatchRequest } from './match-messages.ts';
 import { failureOf } from './messages.ts';
 import { progressListener } from './progress-listener.ts';
 
@@ -24,6 +24,11 @@ function tell(found: FoundLandmarks): void {
   post({ kind: 'done', report, pictures }, buffers);
 }
 
+/** The pairs of vertices, the source's and the target's in turn. */
+function pairsOf(vertices: Uint32Array): FoundPairs {
+  return Array.from({ length: vertices.length / 2 }, (_, k) => [vertices[2 * k] ?? 0, vertices[2 * k + 1] ?? 0]);
+}
+
 async function search({ module, source, target, landmarks }: MatchRequest): Promise<void> {
   try {
     await init({ module_or_path: module });
@@ -31,9 +36,9 @@ async function search({ module, source, target, landmarks }: MatchRequest): Prom
       (share) => {
         post({ kind: 'progress', share });
       },
-      (places) => {
+      (places, vertices) => {
         const own = places as Float32Array<ArrayBuffer>;
-        post({ kind: 'preview', places: own }, [own.buffer]);
+        post({ kind: 'preview', places: own, pairs: pairsOf(vertices) }, [own.buffer]);
       },
     );
     tell(matchLandmarks(source, target, landmarks, listener));

@@ -1,5 +1,5 @@
 /** All events that can change the state. */
-import type { AnswerPicture } from '../compute/match-messages.ts';
+import type { AnswerPicture, FoundPairs } from '../compute/match-messages.ts';
 import type { Failure, Progress, RunOutput } from '../compute/messages.ts';
 import type { RunOptions } from '../report.ts';
 import type { LandmarkFile, Side, Suggestion, SurfacePoint } from '../landmarks.ts';
@@ -111,8 +111,8 @@ export type Event =
   /** A search for landmarks begins. */
   | { readonly kind: 'search-begun' }
   | { readonly kind: 'search-progress'; readonly share: number }
-  /** The coarse map of the best pairs that a search has found so far: for each vertex of the source its place on the target. */
-  | { readonly kind: 'search-preview'; readonly places: Float32Array }
+  /** The coarse map of the best pairs so far: for each vertex of the source its place on the target; and those pairs that were found. */
+  | { readonly kind: 'search-preview'; readonly places: Float32Array; readonly pairs: FoundPairs }
   /** The search is given up, or its answer is no longer shown. */
   | { readonly kind: 'search-closed' }
 

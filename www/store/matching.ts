@@ -1,5 +1,5 @@
 /** The search for landmarks, or its answer. */
-import type { AnswerPicture } from '../compute/match-messages.ts';
+import type { AnswerPicture, FoundPairs } from '../compute/match-messages.ts';
 import type { Pair } from '../landmarks.ts';
 import type { MatchReport } from '../report.ts';
 import type { Work } from './work.ts';
@@ -13,6 +13,8 @@ export interface Searching {
   readonly share: number;
   /** The coarse map of the best pairs so far: for each vertex of the source its place on the target; `null` before the first. */
   readonly preview: Float32Array | null;
+  /** The best pairs so far but for those on the page. They are no landmarks yet: the views show them until the search ends. */
+  readonly ghosts: FoundPairs;
 }
 
 /** The answer of a search for the meshes on the page. */

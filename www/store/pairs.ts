@@ -29,10 +29,15 @@ export function withSuggestions(state: State, side: Side, suggestions: readonly 
   return side === 0 ? [suggestions, state.suggestions[1]] : [state.suggestions[0], suggestions];
 }
 
+/** The number of the next new pair. */
+export function numberAfter(pairs: readonly Pair[]): number {
+  return pairs.reduce((most, { number }) => Math.max(most, number), 0) + 1;
+}
+
 /** Adds pairs of these points, with the next ids and numbers. */
 export function withNewPairs(state: State, made: readonly Pick<Pair, 'points' | 'label' | 'radius'>[]): State {
-  const highest = state.pairs.reduce((most, { number }) => Math.max(most, number), 0);
-  const pairs = made.map((pair, index) => ({ ...pair, id: state.nextId + index, number: highest + 1 + index, locked: false }));
+  const first = numberAfter(state.pairs);
+  const pairs = made.map((pair, index) => ({ ...pair, id: state.nextId + index, number: first + index, locked: false }));
   return { ...state, pairs: [...state.pairs, ...pairs], nextId: state.nextId + made.length };
 }
 

@@ -184,7 +184,7 @@ export function update(state: State, event: Event): State {
     case 'search-progress':
       return withSearched(state, { share: event.share });
     case 'search-preview':
-      return withSearched(state, { preview: event.places });
+      return withSearched(state, { preview: event.places, ghosts: event.pairs });
     case 'search-done':
       return withFound(state, event.report, event.pictures);
     case 'candidate-taken':

@@ -18,11 +18,12 @@ export function canSearch({ ready, meshes, job, matching }: State): boolean {
 
 /** Begins a search for what is on the page. */
 export function withSearch(state: State): State {
-  return canSearch(state) ? { ...state, matching: { kind: 'searching', of: state.pairs, share: 0, preview: null }, error: null } : state;
+  const searching: Searching = { kind: 'searching', of: state.pairs, share: 0, preview: null, ghosts: [] };
+  return canSearch(state) ? { ...state, matching: searching, error: null } : state;
 }
 
 /** Stores how far the search has come. */
-export function withSearched(state: State, news: Partial<Pick<Searching, 'share' | 'preview'>>): State {
+export function withSearched(state: State, news: Partial<Pick<Searching, 'share' | 'preview' | 'ghosts'>>): State {
   return state.matching?.kind === 'searching' ? { ...state, matching: { ...state.matching, ...news } } : state;
 }
 
@@ -37,7 +38,7 @@ function haveSamePairs(a: Candidate, b: Candidate): boolean {
 }
 
 /** Whether a pair has one of these points. */
-function hasOne({ points }: Pair, found: Points): boolean {
+export function hasOne({ points }: Pair, found: Points): boolean {
   return SIDES.some((side) => isSamePoint(points[side], found[side]));
 }
 

@@ -3,6 +3,7 @@ import type { Pair, Side, SurfacePoint } from '../landmarks.ts';
 import { twinOf } from '../store/across.ts';
 import type { Event } from '../store/events.ts';
 import { wholePairs } from '../store/order.ts';
+import { ghostPairs } from '../store/preview.ts';
 import { proposed } from '../store/proposal.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
 import type { Proposal, State } from '../store/state.ts';
@@ -30,7 +31,10 @@ interface Drag {
   placed: boolean;
 }
 
-/** The pairs' colours and cones, and the proposed place, in the renderer's form: a JSON array in the order of the pairs. */
+/**
+ * The pairs' colours and cones, the proposed place, and the ghosts of a search, in the renderer's form: a JSON array of the pairs in their
+ * order, then the ghosts.
+ */
 export function marksOf(state: State, side: Side): string {
   const { ui, pairs } = state;
   const cones = conesOf(state);
@@ -43,7 +47,8 @@ export function marksOf(state: State, side: Side): string {
     const stand = id === ui.selected || id === ui.hovered ? 'raised' : 'plain';
     return point === null ? null : { point, colour: number - 1, stand, cone: cones.get(id) ?? null };
   });
-  return JSON.stringify(marks);
+  const ghosts = ghostPairs(state).map(({ number, points }) => ({ point: points[side], colour: number - 1, stand: 'ghost', cone: null }));
+  return JSON.stringify([...marks, ...ghosts]);
 }
 
 /** The proposed place on a side; `null` for none. */
@@ -61,14 +66,15 @@ function conesOf(state: State): ReadonlyMap<number, number> {
   return new Map(wholePairs(result.inputs).map(({ id }, order) => [id, result.output.cones[order] ?? 0]));
 }
 
-/** The numbers of the pairs on a side, in the order of the pairs; a proposed place has a question mark. */
+/** The numbers of the pairs on a side, in the order of the pairs, then those of ghosts; ghosts and a proposed place have a question mark. */
 export function labelsOf(state: State, side: Side): readonly Label[] {
   const { pairs, ui } = state;
   const ghost = ghostOn(state, side);
-  return pairs.map(({ id, number }) => ({
+  const labels = pairs.map(({ id, number }) => ({
     text: id === ghost?.id ? `${number}?` : String(number),
     raised: id === ui.selected || id === ui.hovered,
   }));
+  return [...labels, ...ghostPairs(state).map(({ number }) => ({ text: `${number}?`, raised: false }))];
 }
 
 /** Moves pins, and dispatches the resulting events. */

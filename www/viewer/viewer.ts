@@ -13,7 +13,7 @@ import { planeInUse } from '../store/across.ts';
 import { otherMap, shownStyle } from '../store/compared.ts';
 import type { Event } from '../store/events.ts';
 import { shownFlows } from '../store/flat.ts';
-import { shownPreview } from '../store/preview.ts';
+import { shownGhosts, shownPreview } from '../store/preview.ts';
 import type { Across } from '../store/left-right.ts';
 import { hasItsCones, shownResult } from '../store/staleness.ts';
 import type { Axis, Camera, Proposal, Result, State } from '../store/state.ts';
@@ -355,6 +355,7 @@ export class Views {
         isOtherMesh ||
         previous.pairs !== state.pairs ||
         previous.proposal !== state.proposal ||
+        shownGhosts(previous) !== shownGhosts(state) ||
         previous.ui.selected !== state.ui.selected ||
         previous.ui.hovered !== state.ui.hovered,
       suggestions: isOtherMesh || previous.suggestions !== state.suggestions,
