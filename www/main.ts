@@ -16,7 +16,7 @@ import { followDemo, freeForgotten, openDemo, showOwnLink } from './app/open.ts'
 import { proveMap, saveMadeFile, saveWrapped } from './app/made-files.ts';
 import { saveProject } from './app/projects.ts';
 import { listenForHalves } from './app/propose.ts';
-import { repair } from './app/repair.ts';
+import { mirror, repair } from './app/repair.ts';
 import { freeExamined, repairMesh, showRepairs } from './app/repair-mesh.ts';
 import { Runner } from './app/run.ts';
 import { leaveTask } from './app/task.ts';
@@ -154,6 +154,9 @@ const actions: Actions = {
       showPair(store, views, id);
     };
     repair(store, { runner, reader, lookAtPair }, finding);
+  },
+  mirrorTarget: () => {
+    void mirror(store, { runner, reader });
   },
   repairMesh: (mesh) => {
     void repairMesh(store, reader, mesh);

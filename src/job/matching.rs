@@ -46,10 +46,10 @@ impl MatchReport {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 pub struct VerdictReport {
-    /// `sure`, `doubtful` or `unknown`.
+    /// `sure`, `doubtful`, `mirrored` or `unknown`.
     #[cfg_attr(
         all(feature = "web", target_arch = "wasm32"),
-        tsify(type = "'sure' | 'doubtful' | 'unknown'")
+        tsify(type = "'sure' | 'doubtful' | 'mirrored' | 'unknown'")
     )]
     pub kind: &'static str,
     /// One sentence for the user, with what to do.
@@ -94,6 +94,8 @@ pub struct CandidateReport {
     pub mean_log: f64,
     /// The remoteness of the pairs, see [`Candidate::remoteness`].
     pub remoteness: f64,
+    /// The relief of the pairs, see [`Candidate::relief`].
+    pub relief: f64,
     /// The agreement of the pairs, see [`Candidate::agreement`].
     pub agreement: f64,
     /// Number of ends of limbs without a partner, on the source and on the target.
@@ -201,7 +203,7 @@ impl InFileNumbers<'_> {
     fn verdict(&self, verdict: &Verdict) -> VerdictReport {
         let number = |side, v| self.number(side, v);
         let (question, places) = match verdict {
-            Verdict::Sure => (None, Vec::new()),
+            Verdict::Sure | Verdict::Mirrored { .. } => (None, Vec::new()),
             Verdict::Doubtful(question) => {
                 let targets = question.targets.map(|v| number(MeshSide::Target, v));
                 let source = number(MeshSide::Source, question.source);
@@ -234,6 +236,7 @@ impl InFileNumbers<'_> {
             score: candidate.score,
             mean_log: candidate.mean_log,
             remoteness: candidate.remoteness,
+            relief: candidate.relief,
             agreement: candidate.agreement,
             unmatched: candidate.unmatched,
             difference: candidate.difference.as_ref().map(|difference| DifferenceReport {

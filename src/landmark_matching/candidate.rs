@@ -66,6 +66,9 @@ pub struct Candidate {
     /// Mean difference between a point's mean distance to its surface and its image's mean distance to its own, in units of the root of
     /// the area.
     pub remoteness: f64,
+    /// Mean difference between a point's height above its smoothed surface and its image's above its own, in units of the root of the
+    /// area.
+    pub relief: f64,
     /// Share of the cyclic orders of shortest paths between the pairs that are the same on both meshes, 0 to 1.
     pub agreement: f64,
     /// Ends of limbs without a partner, on the source and on the target.
@@ -83,8 +86,12 @@ pub struct Candidate {
 const REMOTENESS: f64 = 5.0;
 /// Weight of the number of main tips without a partner; see [`REMOTENESS`].
 const UNMATCHED: f64 = 0.12;
-/// Weight of the share of orders that do not agree; see [`REMOTENESS`].
-const ORDERS: f64 = 0.2;
+/// Weight of the difference in relief. Of pairs of candidates, one right and one with exchanged limbs, relief alone ranks 99.7 % rightly on
+/// men in several poses, where the score without it ranks 91 %, and 99.8 % on animals (98 %). With 10 fewer men had exchanged limbs than
+/// with 5.
+const RELIEF: f64 = 10.0;
+/// Weight of the share of orders that do not agree. With 0.2 the men had more exchanged limbs, and the animals the same.
+const ORDERS: f64 = 0.05;
 /// The amount that a nose assigned to an ear adds to the score, and that ears assigned to ears subtract from it. With 0.03 and with 0.05
 /// the face of 385 lies right on 383, and nothing else changes on the pairs among four animals of SHREC07; 0.05 was taken after another
 /// pair (392-397) had been seen.
@@ -98,11 +105,12 @@ impl Candidate {
             target: shapes[1].on_mesh(shapes[1].marks[t].vertex),
             origin: shapes[0].origin(s),
         };
-        let Judged { mean_log, remoteness, images } = judged;
+        let Judged { mean_log, remoteness, relief, images } = judged;
         // A limb that only one of both bodies has costs nothing.
         let unmatched = assignment.unmatched[0].min(assignment.unmatched[1]) as f64;
         let score = mean_log
             + REMOTENESS * remoteness
+            + RELIEF * relief
             + UNMATCHED * unmatched
             + ORDERS * (1.0 - assignment.agreement)
             + roles(&assignment);
@@ -119,6 +127,7 @@ impl Candidate {
             score,
             mean_log,
             remoteness,
+            relief,
             agreement: assignment.agreement,
             unmatched: assignment.unmatched,
             difference: None,
@@ -142,6 +151,7 @@ impl Candidate {
             score: 0.7,
             mean_log: 0.7,
             remoteness: 0.0,
+            relief: 0.0,
             agreement: 1.0,
             unmatched: [0; 2],
             difference: None,

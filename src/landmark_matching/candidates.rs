@@ -10,7 +10,7 @@ use crate::landmarks::{LEAST_LANDMARKS, MeshSide};
 const SAME_MAIN: usize = 2;
 
 /// The assignments to judge, the most promising first: those that keep left and right, `options.candidates` by cost with few of the same
-/// main pairs, some by cost without regard to orders, then further ones, which are judged only where the best is doubtful.
+/// main pairs, then further ones, which are judged only where the best is doubtful.
 pub(super) fn chosen(
     tables: &Tables<'_>,
     mut all: Vec<Assignment>,
@@ -26,7 +26,6 @@ pub(super) fn chosen(
         pairs.sort_unstable();
         pairs
     };
-    let blind = all.clone();
     all.sort_by(|a, b| a.full_cost().total_cmp(&b.full_cost()));
     let mut kinds: Vec<Vec<[usize; 2]>> = Vec::new();
     let mut chosen: Vec<Assignment> = Vec::new();
@@ -43,8 +42,13 @@ pub(super) fn chosen(
             }
         }
     };
-    for (k, assignments) in symmetric(tables).iter().enumerate() {
-        take(assignments, if k == 0 { options.symmetric } else { options.second_symmetric }, &mut chosen);
+    for (k, groups) in symmetric(tables).iter().enumerate() {
+        let cheapest: Vec<Assignment> = groups.iter().map(|turns| turns[0].clone()).collect();
+        take(&cheapest, if k == 0 { options.symmetric } else { options.second_symmetric }, &mut chosen);
+        // Around a body whose ends lie in a plane the orders say nothing of left and right.
+        if let Some(turns) = groups.first().filter(|_| k == 0) {
+            take(&turns[1..], options.turns, &mut chosen);
+        }
     }
     take(&all, options.candidates, &mut chosen);
     // A long tail that only one of both bodies has must not make a leg the partner of the other's head.
@@ -53,7 +57,6 @@ pub(super) fn chosen(
     let rest = |a: &Assignment| a.full_cost() - a.unmatched_cost;
     missing.sort_by(|a, b| rest(a).total_cmp(&rest(b)));
     take(&missing, options.one_missing, &mut chosen);
-    take(&blind, options.without_orders, &mut chosen);
     take(&all, options.more_candidates, &mut chosen);
     let with_room = |assignment: Assignment| -> Vec<Assignment> {
         if assignment.pairs.len() >= LEAST_LANDMARKS {
@@ -65,9 +68,17 @@ pub(super) fn chosen(
     chosen.into_iter().flat_map(with_room).collect()
 }
 
+/// The assignments of least cost, at most so many.
+pub(super) fn cheapest(mut all: Vec<Assignment>, most: usize) -> Vec<Assignment> {
+    all.retain(|assignment| assignment.pairs.len() >= LEAST_LANDMARKS);
+    all.sort_by(|a, b| a.full_cost().total_cmp(&b.full_cost()));
+    all.truncate(most);
+    all
+}
+
 /// The assignments that keep left and right, for each pair of reflections of both bodies, the cheapest first; none where a body has no
 /// reflection.
-fn symmetric(tables: &Tables<'_>) -> Vec<Vec<Assignment>> {
+fn symmetric(tables: &Tables<'_>) -> Vec<Vec<Vec<Assignment>>> {
     let [sources, targets] = &tables.reflections;
     let pairs = sources.iter().flat_map(|source| targets.iter().map(move |target| [source, target]));
     pairs.map(|pair| equivariant(tables, pair)).collect()

@@ -9,6 +9,7 @@ use crate::landmarks::MeshSide;
 use crate::mesh::{SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion};
 use crate::surface_map::MapError;
+use typed_index_collections::TiSlice;
 
 /// A coarse map with its measures.
 pub(super) struct Judged {
@@ -16,6 +17,8 @@ pub(super) struct Judged {
     pub(super) mean_log: f64,
     /// Mean difference of a point's and its image's mean distance to their surfaces, in units of the root of the area.
     pub(super) remoteness: f64,
+    /// Mean difference of a point's and its image's height above their smoothed surfaces, in units of the root of the area.
+    pub(super) relief: f64,
     /// The map.
     pub(super) images: LevelImages,
 }
@@ -57,15 +60,21 @@ pub(super) fn judge(
     }
     let mean_log = map.mean_log;
     let Some(images) = map.images() else { return Ok(None) };
-    let remoteness = remoteness(shapes, &full, &images);
-    Ok(Some(Judged { mean_log, remoteness, images }))
+    let difference = |of: Field| mean_difference(shapes, of, &full, &images);
+    let [remoteness, relief] = [difference(|shape| &shape.remoteness), difference(|shape| &shape.relief)];
+    Ok(Some(Judged { mean_log, remoteness, relief, images }))
 }
 
-/// Mean difference of a point's and its image's mean distances to their surfaces, in units of the root of the area.
-fn remoteness(shapes: [&Shape; 2], full: &[LandmarkedMesh; 2], images: &LevelImages) -> f64 {
+/// Values at the vertices of a body's level.
+type Field = fn(&Shape) -> &TiSlice<VertexId, f64>;
+
+/// Mean difference of a field's value at a point of the source and at its image on the target.
+fn mean_difference(shapes: [&Shape; 2], of: Field, full: &[LandmarkedMesh; 2], images: &LevelImages) -> f64 {
     let at = |side: MeshSide, v: VertexId| {
-        let origin = full[side].refined.vertex_origin[images.levels[side].vertices[v]];
-        value_at(shapes[side], origin)
+        let SurfacePoint { face, barycentric } =
+            full[side].refined.vertex_origin[images.levels[side].vertices[v]];
+        let corners = shapes[side].level.mesh.triangles()[face];
+        (0..3).map(|k| barycentric[k] * of(shapes[side])[corners[k]]).sum::<f64>()
     };
     let [source, target] = &images.levels;
     let areas = source.mesh.vertex_areas();
@@ -77,9 +86,4 @@ fn remoteness(shapes: [&Shape; 2], full: &[LandmarkedMesh; 2], images: &LevelIma
     };
     let sum: f64 = source.mesh.vertices().map(|v| areas[v] * difference(v)).sum();
     sum / areas.iter().sum::<f64>()
-}
-
-fn value_at(shape: &Shape, point: SurfacePoint) -> f64 {
-    let corners = shape.level.mesh.triangles()[point.face];
-    (0..3).map(|k| point.barycentric[k] * shape.remoteness[corners[k]]).sum()
 }

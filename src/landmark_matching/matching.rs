@@ -5,7 +5,7 @@
 //! (`judge`), then changed a little as long as that helps (`moves`). The verdict compares the best with those that differ from it.
 
 use super::candidate::{Candidate, PictureOnMesh};
-use super::candidates::chosen;
+use super::candidates::{cheapest, chosen};
 use super::heads::with_twins;
 use super::input::MatchInput;
 use super::judge::judge;
@@ -15,7 +15,7 @@ use super::parting::difference;
 use super::search::{Assignment, Tables, assignments};
 use super::shape::{Body, Shape};
 use super::sharpening::sharpen;
-use super::verdict::{Verdict, verdict};
+use super::verdict::{Found, Verdict, verdict};
 use crate::landmarks::MeshSide;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
@@ -59,7 +59,9 @@ const LOOKED: f64 = 0.15;
 /// Progress once the candidates have been judged.
 const JUDGED: f64 = 0.6;
 /// Progress once small changes of the best candidate have been judged.
-const IMPROVED: f64 = 0.95;
+const IMPROVED: f64 = 0.9;
+/// Progress once the target's mirror image has been looked at.
+const MIRRORED: f64 = 0.95;
 
 /// Finds landmark pairs of two bodies beside the given ones, with alternatives and a verdict.
 ///
@@ -86,12 +88,18 @@ pub fn match_landmarks(
     let mut search = Search { source: input.source, shapes, options, found: Vec::new(), judged: 0 };
     search.first_look(&tables, &mut Portion::new(monitor, LOOKED, JUDGED))?;
     search.improve(&tables, &mut Portion::new(monitor, JUDGED, IMPROVED))?;
+    let mirrored = search.onto_mirror_image(&mut Portion::new(monitor, IMPROVED, MIRRORED))?;
     let mut candidates = search.found;
-    sharpen(input, &mut candidates, &mut Portion::new(monitor, IMPROVED, 1.0))?;
+    sharpen(input, &mut candidates, &mut Portion::new(monitor, MIRRORED, 1.0))?;
     if let Some((best, others)) = candidates.split_first_mut() {
         others.iter_mut().for_each(|other| other.difference = Some(difference(shapes, best, other)));
     }
-    let verdict = verdict(input, shapes, &candidates, &options.limits);
+    let verdict = verdict(
+        input,
+        shapes,
+        Found { candidates: &candidates, mirrored: mirrored.as_ref() },
+        &options.limits,
+    );
     Ok(LandmarkMatch { candidates, verdict })
 }
 
@@ -110,6 +118,12 @@ fn check(input: MatchInput<'_>) -> Result<(), MatchError> {
     Ok(())
 }
 
+/// The vertices of both levels that an assignment pairs.
+fn vertices(shapes: [&Shape; 2], assignment: &Assignment) -> Vec<[VertexId; 2]> {
+    let of_marks = |pair: &[usize; 2]| MeshSide::BOTH.map(|side| shapes[side].marks[pair[side]].vertex);
+    assignment.pairs.iter().map(of_marks).chain(assignment.between).collect()
+}
+
 /// A matching under way: the candidates that were judged, the best first.
 struct Search<'a> {
     source: &'a SurfaceMesh,
@@ -123,10 +137,7 @@ impl Search<'_> {
     /// Judges an assignment; returns whether it is the best so far.
     fn judge(&mut self, assignment: &Assignment, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
         self.judged += 1;
-        let vertices =
-            |pair: &[usize; 2]| MeshSide::BOTH.map(|side| self.shapes[side].marks[pair[side]].vertex);
-        let pairs = assignment.pairs.iter().map(vertices).chain(assignment.between);
-        let pairs: Vec<[VertexId; 2]> = pairs.collect();
+        let pairs = vertices(self.shapes, assignment);
         let Some(judged) = judge(self.shapes, &pairs, self.options, monitor)? else { return Ok(false) };
         let candidate = Candidate::new(self.shapes, assignment.clone(), judged);
         let place = self.found.partition_point(|other| other.score <= candidate.score);
@@ -145,9 +156,9 @@ impl Search<'_> {
     /// Judges the most promising assignments, and more where these are poor.
     fn first_look(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
         let listed = chosen(tables, assignments(tables, self.options), self.options);
-        let MatchOptions { candidates, symmetric, one_missing, without_orders, .. } = self.options;
+        let MatchOptions { candidates, symmetric, turns, one_missing, .. } = self.options;
         // Candidates of further reflections take the place of the last of these.
-        let first = candidates + symmetric + one_missing + without_orders;
+        let first = candidates + symmetric + turns + one_missing;
         for (k, assignment) in listed.iter().enumerate() {
             let enough = k >= first && self.least_score() < self.options.doubtful_score;
             if enough || (monitor.wants_result() && !self.found.is_empty()) {
@@ -157,6 +168,31 @@ impl Search<'_> {
             self.judge(assignment, &mut Portion::new(monitor, share(k), share(k + 1)))?;
         }
         Ok(())
+    }
+
+    /// The best of the cheapest assignments onto the target's mirror image; `None` where none has a map.
+    fn onto_mirror_image(&self, monitor: &mut dyn Monitor) -> Result<Option<Candidate>, Cancelled> {
+        let [source, target] = self.shapes;
+        let mut best: Option<Candidate> = None;
+        let Some(image) = target.mirrored() else { return Ok(best) };
+        let shapes = [source, &image];
+        let most = self.options.mirrored;
+        let listed = cheapest(assignments(&Tables::new(shapes, self.options), self.options), most);
+        for (k, assignment) in listed.into_iter().enumerate() {
+            if monitor.wants_result() {
+                break;
+            }
+            let share = |k: usize| k as f64 / most as f64;
+            let watched = &mut Portion::new(monitor, share(k), share(k + 1));
+            let Some(judged) = judge(shapes, &vertices(shapes, &assignment), self.options, watched)? else {
+                continue;
+            };
+            let candidate = Candidate::new(shapes, assignment, judged);
+            if best.as_ref().is_none_or(|best| candidate.score < best.score) {
+                best = Some(candidate);
+            }
+        }
+        Ok(best)
     }
 
     /// Judges small changes of the best, at most `options.changes`, and goes on from each that is better.

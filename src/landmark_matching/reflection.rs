@@ -4,9 +4,10 @@
 //! reverses the orders in which shortest paths lead to the tips. There are few ways to pair the tips, so the best is found by trying
 //! all of them.
 
-use super::orders::agreement;
+use super::orders::orders;
 use super::shape::Shape;
 use crate::math::scalar::{ln, min};
+use std::cmp::Reverse;
 
 /// Largest number of main tips for which reflections are searched: ten can be paired in 9,496 ways.
 const MOST_TIPS: usize = 10;
@@ -66,6 +67,11 @@ impl Reflection {
             return Vec::new();
         };
         costs.retain(|reflection| reflection.0 < least + NEARLY);
+        // A man's hands are nearly as far from both feet, so that his feet might as well lie on the middle line.
+        let limbs = |reflection: &Self| {
+            reflection.pairs.iter().filter(|pair| pair.iter().all(|k| main.contains(k))).count()
+        };
+        costs.sort_by_key(|reflection| Reverse(limbs(&reflection.1)));
         let with_lesser = |reflection: Self| {
             let is_twin = reflection.pairs.iter().flatten().any(|k| lesser.contains(k));
             if is_twin { reflection.with_middle(shape, &lesser) } else { reflection }
@@ -132,7 +138,7 @@ impl Reflection {
         let differences: f64 = self.pairs.iter().map(difference).sum();
         sum / f64::from(count.max(1))
             + differences / self.pairs.len() as f64
-            + ORDERS * agreement([shape, shape], &images)
+            + ORDERS * orders([shape, shape], &images).kept
     }
 }
 

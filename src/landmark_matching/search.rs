@@ -1,7 +1,7 @@
 //! Assignments of the tips of one body to those of another: a beam search over partial assignments.
 
 use super::options::MatchOptions;
-use super::orders::agreement;
+use super::orders::orders;
 use super::reflection::{Reflection, keeps_sides};
 use super::roles::{Roles, kept};
 use super::shape::Shape;
@@ -184,7 +184,7 @@ impl Partial {
             mixed,
             cost: self.cost(tables.shapes[0].given),
             unmatched_cost: UNMATCHED * self.unmatched_cost,
-            agreement: agreement(tables.shapes, &clear),
+            agreement: 1.0 - orders(tables.shapes, &clear).reversed,
             unmatched: self.unmatched,
             keeps_sides: keeps_sides(tables.reflections.each_ref().map(Vec::as_slice), &self.pairs),
             pairs: self.pairs,

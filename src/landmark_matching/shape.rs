@@ -1,12 +1,15 @@
 //! A body in the matching: a coarse level of area 1 with its tips, and a descriptor of each tip.
 
 use super::agreement::{Rank, ranks};
+use super::inversions::inversions;
 use super::options::MatchOptions;
 use super::pair::PairOrigin;
 use super::persistence::peaks;
+use super::relief::relief;
 use crate::geodesic::distances;
 use crate::math::scalar::ln;
 use crate::mesh::coarsening::Level;
+use crate::mesh::mirror::mirrored;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
@@ -33,6 +36,7 @@ pub(super) struct Body<'a> {
 }
 
 /// A body in the matching: its coarse level with its marks.
+#[derive(Clone)]
 pub(super) struct Shape {
     /// The level, of area 1; its vertices are numbered on the full mesh.
     pub(super) level: Level,
@@ -41,6 +45,8 @@ pub(super) struct Shape {
     pub(super) areas: TiVec<VertexId, f64>,
     /// Mean distance of each vertex to the whole surface.
     pub(super) remoteness: TiVec<VertexId, f64>,
+    /// Height of each vertex above the smoothed surface.
+    pub(super) relief: TiVec<VertexId, f64>,
     /// The given landmarks in their order, then the tips, the most persistent first.
     pub(super) marks: Vec<Mark>,
     pub(super) given: usize,
@@ -49,6 +55,7 @@ pub(super) struct Shape {
 }
 
 /// A given landmark or a tip.
+#[derive(Clone)]
 pub(super) struct Mark {
     pub(super) vertex: VertexId,
     /// The persistence of a tip, or of the tip that a given landmark stands for; 0 for other given landmarks.
@@ -57,8 +64,9 @@ pub(super) struct Mark {
     pub(super) field: TiVec<VertexId, f64>,
     /// The descriptor: logarithms of the radii that enclose the shares of the area.
     radii: [f64; SHARES.len()],
-    /// The rank of each mark in the cyclic order in which shortest paths leave this mark for all others.
-    pub(super) ranks: Vec<Rank>,
+    /// On the body and on each of its images under inversions: the rank of each mark in the cyclic order in which shortest paths leave this
+    /// mark for all others.
+    pub(super) ranks: Vec<Vec<Rank>>,
 }
 
 impl Mark {
@@ -82,12 +90,13 @@ impl Shape {
         let areas = level.mesh.vertex_areas();
         let remoteness =
             remoteness(&level.mesh, &areas, options.samples, &mut Portion::new(monitor, 0.1, 0.9))?;
+        let relief = relief(&level.mesh);
         let held: Vec<VertexId> = level.numbers(given).collect();
         let tips = peaks(&level.mesh, &remoteness, options.least_persistence);
         let fields: Vec<_> = held.iter().map(|&v| distances(&level.mesh, &[v])).collect();
         let may_mark = may_mark.map(|may| level.vertices.iter().map(|&v| may[v]).collect());
         let given = held.len();
-        let mut shape = Self { level, scale, areas, remoteness, marks: Vec::new(), given, may_mark };
+        let mut shape = Self { level, scale, areas, remoteness, relief, marks: Vec::new(), given, may_mark };
         for (v, field) in held.into_iter().zip(fields) {
             shape.add(v, 0.0, field);
         }
@@ -114,6 +123,19 @@ impl Shape {
         Ok(shape)
     }
 
+    /// The body's mirror image, with the same marks; `None` where its level has none.
+    pub(super) fn mirrored(&self) -> Option<Self> {
+        let level = Level { mesh: mirrored(&self.level.mesh).ok()?, ..self.level.clone() };
+        let mut image = Self { level, ..self.clone() };
+        // Orders are reversed.
+        image
+            .marks
+            .iter_mut()
+            .flat_map(|mark| mark.ranks.iter_mut().flatten())
+            .for_each(|rank| *rank = !*rank);
+        Some(image)
+    }
+
     /// Whether a vertex may be a landmark.
     pub(super) fn may(&self, v: VertexId) -> bool {
         self.may_mark.as_ref().is_none_or(|may| may[v])
@@ -137,8 +159,11 @@ impl Shape {
 
     fn order(&mut self) {
         let vertices: Vec<VertexId> = self.marks.iter().map(|mark| mark.vertex).collect();
+        let images = inversions(&self.level.mesh);
         for mark in &mut self.marks {
-            mark.ranks = ranks(&self.level.mesh, mark.vertex, &mark.field, &vertices);
+            mark.ranks.push(ranks(&self.level.mesh, mark.vertex, &mark.field, &vertices));
+            let on_image = |image| ranks(image, mark.vertex, &distances(image, &[mark.vertex]), &vertices);
+            mark.ranks.extend(images.iter().map(on_image));
         }
     }
 

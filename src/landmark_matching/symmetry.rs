@@ -7,13 +7,14 @@ use super::search::{Assignment, Tables};
 use super::shape::Shape;
 use crate::landmarks::MeshSide;
 
-/// The assignments that take partners to partners and the middle line to the middle line, the cheapest first: of those that differ only in
-/// left and right, the cheapest one. The given pairs come first in each. One tip on the middle line may have no partner, without cost.
-pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) -> Vec<Assignment> {
+/// The assignments that take partners to partners and the middle line to the middle line, the cheapest first, in groups of those that differ
+/// only in left and right; the groups are in the order of their cheapest ones. The given pairs come first in each. One tip on the middle
+/// line may have no partner, without cost.
+pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) -> Vec<Vec<Assignment>> {
     let [source, target] = reflections;
     let pairings = injections(source.pairs.len(), target.pairs.len(), 0);
     let middles = injections(source.middle.len(), target.middle.len(), 1);
-    let mut found = Vec::new();
+    let mut found: Vec<Vec<Assignment>> = Vec::new();
     for pairing in &pairings {
         for middle in &middles {
             let on_middle = middle.iter().map(|&[s, t]| [source.middle[s], target.middle[t]]);
@@ -26,12 +27,18 @@ pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) ->
                 let pairs = with_given(tables.shapes, on_middle.iter().copied().chain(both))?;
                 Some(tables.assignment(&pairs))
             });
-            found.extend(turns.min_by(|a, b| a.full_cost().total_cmp(&b.full_cost())));
+            let mut turns: Vec<Assignment> = turns.collect();
+            turns.sort_by(|a, b| a.full_cost().total_cmp(&b.full_cost()));
+            found.push(turns);
         }
     }
     // A limb that only one body has costs nothing.
     let is_rest = |a: &Assignment| a.unmatched.contains(&0);
-    let cost = |a: &Assignment| a.full_cost() - if is_rest(a) { a.unmatched_cost } else { 0.0 };
+    let cost = |turns: &Vec<Assignment>| {
+        let first = &turns[0];
+        first.full_cost() - if is_rest(first) { first.unmatched_cost } else { 0.0 }
+    };
+    found.retain(|turns| !turns.is_empty());
     found.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
     found
 }
@@ -97,13 +104,13 @@ mod tests {
         let tables = Tables::new([&shapes[0], &shapes[1]], &options);
         let [source, target] = &tables.reflections;
         let found = equivariant(&tables, [&source[0], &target[0]]);
-        assert!(found.iter().all(|assignment| assignment.pairs[0] == [0, 0]));
+        assert!(found.iter().flatten().all(|assignment| assignment.pairs[0] == [0, 0]));
         let end = |shape: &Shape, mark: usize| {
             let p = ball.positions()[shape.on_mesh(shape.marks[mark].vertex)];
             (0..ENDS.len()).find(|&end| ENDS[end].normalize().distance(p) < 0.25).unwrap()
         };
         let mut images: Vec<[usize; 2]> =
-            found[0].pairs.iter().map(|&[s, t]| [end(&shapes[0], s), end(&shapes[1], t)]).collect();
+            found[0][0].pairs.iter().map(|&[s, t]| [end(&shapes[0], s), end(&shapes[1], t)]).collect();
         images.sort_unstable();
         images
     }

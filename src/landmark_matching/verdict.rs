@@ -18,6 +18,11 @@ pub enum Verdict {
     Sure,
     /// Another candidate is nearly as good, or the best is not good enough: the answer to one question settles it.
     Doubtful(Question),
+    /// The target's mirror image fits far better: one of both meshes is that of a left hand, or was mirrored on its way.
+    Mirrored {
+        /// The score of the best candidate onto the mirror image.
+        score: f64,
+    },
     /// No candidate fits well: pairs at these vertices of the source would help.
     Unknown {
         /// Three vertices of the source, far from each other; fewer where no more may be landmarks.
@@ -43,6 +48,7 @@ impl Verdict {
         match self {
             Self::Sure => "sure",
             Self::Doubtful(_) => "doubtful",
+            Self::Mirrored { .. } => "mirrored",
             Self::Unknown { .. } => "unknown",
         }
     }
@@ -59,6 +65,9 @@ impl Verdict {
                     number(MeshSide::Source, *source)
                 )
             }
+            Self::Mirrored { .. } => {
+                "The target fits far better as its mirror image: map onto that (--mirror-target), or give landmarks.".to_owned()
+            }
             Self::Unknown { places } => {
                 let places: Vec<String> =
                     places.iter().map(|&v| number(MeshSide::Source, v).to_string()).collect();
@@ -72,13 +81,27 @@ impl Verdict {
     }
 }
 
-/// The verdict on candidates, the best first.
+/// What a search has found.
+#[derive(Clone, Copy)]
+pub(super) struct Found<'a> {
+    /// The candidates, the best first.
+    pub(super) candidates: &'a [Candidate],
+    /// The best candidate onto the target's mirror image.
+    pub(super) mirrored: Option<&'a Candidate>,
+}
+
+/// The verdict on what was found.
 pub(super) fn verdict(
     input: MatchInput<'_>,
     shapes: [&Shape; 2],
-    candidates: &[Candidate],
+    Found { candidates, mirrored }: Found<'_>,
     limits: &VerdictLimits,
 ) -> Verdict {
+    if let (Some(best), Some(image)) = (candidates.first(), mirrored)
+        && is_mirrored(best, image, limits)
+    {
+        return Verdict::Mirrored { score: image.score };
+    }
     let unknown = || Verdict::Unknown { places: shapes[0].far_places() };
     let Some(best) = candidates.first().filter(|best| best.score < limits.unknown_score) else {
         return unknown();
@@ -93,11 +116,22 @@ pub(super) fn verdict(
     // A given pair settles a doubt that came of the score alone.
     let good = good + limits.per_given * input.given.len() as f64;
     let fits = best.score < good && best.agreement >= limits.agreement;
-    if fits && !near && clear >= limits.least_pairs {
+    // One pair less is enough for a map that is nearly an isometry, as that of a body with few ends onto another pose of it.
+    let isometric = best.score < limits.sure_score_without_sides;
+    let enough = clear + usize::from(isometric) >= limits.least_pairs;
+    if fits && !near && enough {
         return Verdict::Sure;
     }
     let question = number.and_then(|number| question(input, candidates, number));
     question.map_or_else(unknown, Verdict::Doubtful)
+}
+
+/// Whether the best candidate onto the target's mirror image fits far better than the best onto the target. That of a man fits better where
+/// he raises the other arm, but with the same distortion.
+fn is_mirrored(best: &Candidate, image: &Candidate, limits: &VerdictLimits) -> bool {
+    image.score < limits.sure_score
+        && image.score + limits.margin < best.score
+        && image.mean_log < limits.mirror_share * best.mean_log
 }
 
 /// The question that decides between the best candidate and a rival; `None` where they differ at no vertices that may be landmarks.
@@ -176,18 +210,30 @@ mod tests {
     fn an_answer_settles_a_doubt_that_came_of_the_score_but_not_one_between_rivals() {
         let mesh = icosphere(2);
         let given = [[VertexId(0); 2]];
-        let verdict = |scores: [f64; 2], given: &[[VertexId; 2]]| {
+        let verdict_with = |mirrored: Option<&Candidate>, scores: [f64; 2], given: &[[VertexId; 2]]| {
             let body = Body { mesh: &mesh, given: &[], may_mark: None };
             let shape = Shape::new(body, &MatchOptions::default(), &mut Silent).unwrap();
             let input = MatchInput { given, ..MatchInput::new(&mesh, &mesh) };
             let candidates = right_and_turned(&mesh, scores);
-            super::verdict(input, [&shape; 2], &candidates, &VerdictLimits::default()).word()
+            let found = Found { candidates: &candidates, mirrored };
+            super::verdict(input, [&shape; 2], found, &VerdictLimits::default()).word()
         };
-        assert_eq!(verdict([0.40, 0.90], &[]), "sure");
-        assert_eq!(verdict([0.55, 0.90], &[]), "doubtful");
-        assert_eq!(verdict([0.55, 0.90], &given), "sure");
+        let verdict = |scores: [f64; 2], given: &[[VertexId; 2]]| verdict_with(None, scores, given);
+        assert_eq!(verdict([0.40, 1.10], &[]), "sure");
+        assert_eq!(verdict([0.75, 1.10], &[]), "doubtful");
+        assert_eq!(verdict([0.75, 1.10], &given), "sure");
         assert_eq!(verdict([0.40, 0.45], &given), "doubtful");
         assert_eq!(verdict([1.10, 1.90], &given), "unknown");
+        // The mirror image of a body that is nearly symmetric fits as well; in another pose it may fit better, as distorted.
+        let [right, _] = right_and_turned(&mesh, [0.4, 1.1]);
+        let image = |score: f64, mean_log: f64| Candidate {
+            score,
+            mean_log: mean_log * right.mean_log,
+            ..right.clone()
+        };
+        assert_eq!(verdict_with(Some(&image(0.35, 0.5)), [0.40, 1.10], &[]), "sure");
+        assert_eq!(verdict_with(Some(&image(0.30, 0.9)), [0.40, 1.10], &[]), "sure");
+        assert_eq!(verdict_with(Some(&image(0.30, 0.5)), [0.40, 1.10], &[]), "mirrored");
     }
 
     #[test]

@@ -109,6 +109,7 @@ export function candidate(...pairs: readonly (readonly [number, number])[]): Can
     score: 1,
     mean_log: 0.2,
     remoteness: 0.1,
+    relief: 0.02,
     agreement: 0.9,
     unmatched: [0, 0],
     difference: null,

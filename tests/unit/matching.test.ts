@@ -30,6 +30,12 @@ const sure = (...candidates: MatchReport['candidates']): Event => ({
   report: { verdict: { kind: 'sure', sentence: 'Sure.', question: null, places: [] }, candidates },
   pictures: PICTURES,
 });
+/** The answer that the target is mirrored, with these candidates. */
+const mirrored = (...candidates: MatchReport['candidates']): Event => ({
+  kind: 'search-done',
+  report: { verdict: { kind: 'mirrored', sentence: 'Mirrored.', question: null, places: [] }, candidates },
+  pictures: PICTURES,
+});
 const pointsOf = ({ pairs }: State): Pair['points'][] => pairs.map(({ points }) => points);
 
 describe('ghosts of a search', () => {
@@ -183,6 +189,16 @@ describe('an answer', () => {
     expect(isDoubtful(after(found, take(0)))).toBe(false);
     expect(isDoubtful(after(found, { kind: 'run-started' }))).toBe(true);
     expect(isDoubtful(after(TWO, SEARCH, sure(candidate([0, 10], [1, 11], [4, 14], [5, 15]))))).toBe(false);
+  });
+
+  test('onto a mirrored target leaves the pairs as they are, and is over when the target is mirrored', () => {
+    const told = after(TWO, SEARCH, mirrored(candidate([0, 10], [1, 11], [4, 14], [5, 15])));
+    expect([told.matching?.kind, told.pairs]).toEqual(['found', TWO.pairs]);
+    const file = told.meshes[1];
+    if (file === null) {
+      throw new Error('the target is missing');
+    }
+    expect(after(told, { kind: 'mirrored', file: { ...file }, points: [10, 11] }).matching).toBeNull();
   });
 
   test('to the question settles the doubt', () => {

@@ -16,7 +16,7 @@ export interface RepairTools {
 }
 
 /** Replaces the target by its mirror image, with its points; a run with the old points ends. */
-async function mirror(store: Store, { runner, reader }: RepairTools): Promise<void> {
+export async function mirror(store: Store, { runner, reader }: Pick<RepairTools, 'runner' | 'reader'>): Promise<void> {
   const { pairs, meshes } = store.state;
   const target = meshes[1];
   if (target === null) {

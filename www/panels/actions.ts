@@ -68,6 +68,8 @@ export interface Actions {
   /** Gives up the task that the page is busy with; nothing of it comes onto the page. */
   readonly leaveTask: () => void;
   readonly repair: (finding: Doubt) => void;
+  /** Replaces the target by its mirror image, with its points. */
+  readonly mirrorTarget: () => void;
   /** Repairs a mesh that was refused. */
   readonly repairMesh: (mesh: RefusedMesh) => void;
   /** Shows or hides what was wrong with a mesh before it was repaired. */

@@ -28,6 +28,11 @@ interface Told {
 const VERDICTS: Readonly<Record<MatchReport['verdict']['kind'], Told>> = {
   sure: { icon: 'check', word: 'Sure.', sentence: 'No other answer comes near.' },
   doubtful: { icon: 'doubt', word: 'Doubtful.', sentence: 'It may be right. The question below settles it.' },
+  mirrored: {
+    icon: 'doubt',
+    word: 'Mirrored.',
+    sentence: 'The target fits far better as its mirror image. Mirror it, then find landmarks again.',
+  },
   unknown: {
     icon: 'help',
     word: 'Not found.',
@@ -167,7 +172,8 @@ export function Matched({ state, actions }: Props): VNode | null {
   }
   const told = toldOf(state, matching);
   const { icon, word, sentence } = told;
-  const { question } = matching.report.verdict;
+  const { report } = matching;
+  const { question } = report.verdict;
   return (
     <section class="matched" aria-label="Landmarks that were found">
       <div class={`told of-${icon}`} role="status">
@@ -187,7 +193,12 @@ export function Matched({ state, actions }: Props): VNode | null {
           <Icon name="close" />
         </button>
       </div>
-      {question !== null && told !== SETTLED && <Asked report={matching.report} question={question} state={state} actions={actions} />}
+      {report.verdict.kind === 'mirrored' && told !== SETTLED && (
+        <button type="button" onClick={actions.mirrorTarget}>
+          Mirror the target
+        </button>
+      )}
+      {question !== null && told !== SETTLED && <Asked report={report} question={question} state={state} actions={actions} />}
       <Alternatives found={matching} state={state} actions={actions} />
     </section>
   );

@@ -87,6 +87,9 @@ export function withFound(state: State, report: MatchReport, pictures: readonly 
   }
   const [best] = report.candidates;
   const found: State = { ...state, matching: { kind: 'found', report, pictures, isSettled: false } };
+  if (report.verdict.kind === 'mirrored') {
+    return found;
+  }
   if (best === undefined || report.verdict.kind === 'unknown') {
     return { ...found, suggestions: withSuggestions(state, 0, ringsAt(report.verdict.places)) };
   }
