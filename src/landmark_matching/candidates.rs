@@ -3,7 +3,7 @@
 use super::between::{LEAST_TO_PLACE, between};
 use super::options::MatchOptions;
 use super::search::{Assignment, Tables};
-use super::symmetry::equivariant;
+use super::symmetry::{Turns, equivariant};
 use crate::landmarks::{LEAST_LANDMARKS, MeshSide};
 
 /// Candidates with the same pairs of main tips, at most. Chosen by hand.
@@ -76,9 +76,8 @@ pub(super) fn cheapest(mut all: Vec<Assignment>, most: usize) -> Vec<Assignment>
     all
 }
 
-/// The assignments that keep left and right, for each pair of reflections of both bodies, the cheapest first; none where a body has no
-/// reflection.
-fn symmetric(tables: &Tables<'_>) -> Vec<Vec<Vec<Assignment>>> {
+/// The assignments that keep left and right, for each pair of reflections of both bodies; none where a body has no reflection.
+fn symmetric(tables: &Tables<'_>) -> Vec<Vec<Turns>> {
     let [sources, targets] = &tables.reflections;
     let pairs = sources.iter().flat_map(|source| targets.iter().map(move |target| [source, target]));
     pairs.map(|pair| equivariant(tables, pair)).collect()

@@ -6,6 +6,7 @@ use crate::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_cl
 use crate::coarse_map::multilevel::LevelImages;
 use crate::coarse_map::{CoarseMapError, LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse};
 use crate::landmarks::MeshSide;
+use crate::math::barycentric::interpolated;
 use crate::mesh::{SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion};
 use crate::surface_map::MapError;
@@ -74,14 +75,14 @@ fn mean_difference(shapes: [&Shape; 2], of: Field, full: &[LandmarkedMesh; 2], i
         let SurfacePoint { face, barycentric } =
             full[side].refined.vertex_origin[images.levels[side].vertices[v]];
         let corners = shapes[side].level.mesh.triangles()[face];
-        (0..3).map(|k| barycentric[k] * of(shapes[side])[corners[k]]).sum::<f64>()
+        interpolated(corners.map(|corner| of(shapes[side])[corner]), barycentric)
     };
     let [source, target] = &images.levels;
     let areas = source.mesh.vertex_areas();
     let difference = |v: VertexId| {
         let SurfacePoint { face, barycentric } = images.target_from_source[v];
         let corners = target.mesh.triangles()[face];
-        let image: f64 = (0..3).map(|k| barycentric[k] * at(MeshSide::Target, corners[k])).sum();
+        let image = interpolated(corners.map(|corner| at(MeshSide::Target, corner)), barycentric);
         (at(MeshSide::Source, v) - image).abs()
     };
     let sum: f64 = source.mesh.vertices().map(|v| areas[v] * difference(v)).sum();

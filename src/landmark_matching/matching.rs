@@ -118,10 +118,17 @@ fn check(input: MatchInput<'_>) -> Result<(), MatchError> {
     Ok(())
 }
 
-/// The vertices of both levels that an assignment pairs.
-fn vertices(shapes: [&Shape; 2], assignment: &Assignment) -> Vec<[VertexId; 2]> {
-    let of_marks = |pair: &[usize; 2]| MeshSide::BOTH.map(|side| shapes[side].marks[pair[side]].vertex);
-    assignment.pairs.iter().map(of_marks).chain(assignment.between).collect()
+/// The candidate of an assignment; `None` where it has no map.
+fn candidate(
+    shapes: [&Shape; 2],
+    assignment: Assignment,
+    options: &MatchOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Option<Candidate>, Cancelled> {
+    let vertices = |pair: &[usize; 2]| MeshSide::BOTH.map(|side| shapes[side].marks[pair[side]].vertex);
+    let pairs: Vec<[VertexId; 2]> = assignment.pairs.iter().map(vertices).chain(assignment.between).collect();
+    let judged = judge(shapes, &pairs, options, monitor)?;
+    Ok(judged.map(|judged| Candidate::new(shapes, assignment, judged)))
 }
 
 /// A matching under way: the candidates that were judged, the best first.
@@ -137,9 +144,9 @@ impl Search<'_> {
     /// Judges an assignment; returns whether it is the best so far.
     fn judge(&mut self, assignment: &Assignment, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
         self.judged += 1;
-        let pairs = vertices(self.shapes, assignment);
-        let Some(judged) = judge(self.shapes, &pairs, self.options, monitor)? else { return Ok(false) };
-        let candidate = Candidate::new(self.shapes, assignment.clone(), judged);
+        let Some(candidate) = candidate(self.shapes, assignment.clone(), self.options, monitor)? else {
+            return Ok(false);
+        };
         let place = self.found.partition_point(|other| other.score <= candidate.score);
         let is_best = place == 0;
         if is_best {
@@ -184,13 +191,8 @@ impl Search<'_> {
             }
             let share = |k: usize| k as f64 / most as f64;
             let watched = &mut Portion::new(monitor, share(k), share(k + 1));
-            let Some(judged) = judge(shapes, &vertices(shapes, &assignment), self.options, watched)? else {
-                continue;
-            };
-            let candidate = Candidate::new(shapes, assignment, judged);
-            if best.as_ref().is_none_or(|best| candidate.score < best.score) {
-                best = Some(candidate);
-            }
+            let found = candidate(shapes, assignment, self.options, watched)?;
+            best = best.into_iter().chain(found).min_by(|a, b| a.score.total_cmp(&b.score));
         }
         Ok(best)
     }

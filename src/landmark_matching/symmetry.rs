@@ -7,14 +7,17 @@ use super::search::{Assignment, Tables};
 use super::shape::Shape;
 use crate::landmarks::MeshSide;
 
+/// Assignments that differ only in left and right, the cheapest first; at least one.
+pub(super) type Turns = Vec<Assignment>;
+
 /// The assignments that take partners to partners and the middle line to the middle line, the cheapest first, in groups of those that differ
 /// only in left and right; the groups are in the order of their cheapest ones. The given pairs come first in each. One tip on the middle
 /// line may have no partner, without cost.
-pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) -> Vec<Vec<Assignment>> {
+pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) -> Vec<Turns> {
     let [source, target] = reflections;
     let pairings = injections(source.pairs.len(), target.pairs.len(), 0);
     let middles = injections(source.middle.len(), target.middle.len(), 1);
-    let mut found: Vec<Vec<Assignment>> = Vec::new();
+    let mut found: Vec<Turns> = Vec::new();
     for pairing in &pairings {
         for middle in &middles {
             let on_middle = middle.iter().map(|&[s, t]| [source.middle[s], target.middle[t]]);
@@ -27,14 +30,14 @@ pub(super) fn equivariant(tables: &Tables<'_>, reflections: [&Reflection; 2]) ->
                 let pairs = with_given(tables.shapes, on_middle.iter().copied().chain(both))?;
                 Some(tables.assignment(&pairs))
             });
-            let mut turns: Vec<Assignment> = turns.collect();
+            let mut turns: Turns = turns.collect();
             turns.sort_by(|a, b| a.full_cost().total_cmp(&b.full_cost()));
             found.push(turns);
         }
     }
     // A limb that only one body has costs nothing.
     let is_rest = |a: &Assignment| a.unmatched.contains(&0);
-    let cost = |turns: &Vec<Assignment>| {
+    let cost = |turns: &Turns| {
         let first = &turns[0];
         first.full_cost() - if is_rest(first) { first.unmatched_cost } else { 0.0 }
     };
