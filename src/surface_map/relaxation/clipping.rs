@@ -13,8 +13,11 @@ pub struct BoxedTriangle {
     high: DVec2,
 }
 
-/// Memory for the corners of a triangle that was clipped three times, also where rounding makes it a little concave.
-type Polygon = [DVec2; 12];
+/// Corners of a triangle that was clipped three times, at most, also where rounding makes it a little concave.
+const MOST_CORNERS: usize = 12;
+
+/// Memory for these corners.
+type Polygon = [DVec2; MOST_CORNERS];
 
 impl BoxedTriangle {
     /// A triangle by its corners.
@@ -25,36 +28,44 @@ impl BoxedTriangle {
 
     /// The area that two triangles share.
     pub fn overlap(&self, clip: &Self) -> f64 {
-        let mut polygon: Polygon = [DVec2::ZERO; 12];
-        let count = self.shared(clip, &mut polygon);
-        0.5 * max(fan(&polygon[..count]).map(|[p, q, r]| signed_double_area(p, q, r)).sum(), 0.0)
+        let doubled = |polygon: &[DVec2]| fan(polygon).map(|[p, q, r]| signed_double_area(p, q, r)).sum();
+        self.shared(clip, doubled).map_or(0.0, |doubled: f64| 0.5 * max(doubled, 0.0))
     }
 
     /// The triangles of a fan of the polygon that two triangles share; none where it has no area.
     pub fn shared_triangles(&self, clip: &Self) -> Vec<Self> {
-        let mut polygon: Polygon = [DVec2::ZERO; 12];
-        let count = self.shared(clip, &mut polygon);
         let has_area = |&[p, q, r]: &[DVec2; 3]| signed_double_area(p, q, r) > 0.0;
-        fan(&polygon[..count]).filter(has_area).map(Self::new).collect()
+        let parts = |polygon: &[DVec2]| fan(polygon).filter(has_area).map(Self::new).collect();
+        self.shared(clip, parts).unwrap_or_default()
     }
 
-    /// The polygon that two triangles share, one clipped by the other's sides (Sutherland & Hodgman 1974); returns the number of its
-    /// corners.
-    fn shared(&self, clip: &Self, polygon: &mut Polygon) -> usize {
+    /// A value of the polygon that two triangles share, one clipped by the other's sides (Sutherland & Hodgman 1974); `None` where they
+    /// share none.
+    fn shared<T>(&self, clip: &Self, value: impl FnOnce(&[DVec2]) -> T) -> Option<T> {
         if !(self.low.cmple(clip.high).all() && clip.low.cmple(self.high).all()) {
-            return 0;
+            return None;
         }
+        let [mut polygon, mut spare]: [Polygon; 2] = [[DVec2::ZERO; MOST_CORNERS]; 2];
         polygon[..3].copy_from_slice(&self.corners);
         let mut count = 3;
         for k in 0..3 {
             let from = clip.corners[k];
             let along = clip.corners[(k + 1) % 3] - from;
-            count = clipped(polygon, count, |p| along.perp_dot(p - from));
+            let mut sides = [0.0; MOST_CORNERS];
+            let mut is_within = true;
+            for (side, &p) in sides.iter_mut().zip(&polygon[..count]) {
+                *side = along.perp_dot(p - from);
+                is_within &= *side >= 0.0;
+            }
+            if !is_within {
+                count = clipped(&polygon[..count], &sides, &mut spare);
+                std::mem::swap(&mut polygon, &mut spare);
+            }
             if count < 3 {
-                return 0;
+                return None;
             }
         }
-        count
+        Some(value(&polygon[..count]))
     }
 }
 
@@ -63,23 +74,21 @@ fn fan(polygon: &[DVec2]) -> impl Iterator<Item = [DVec2; 3]> {
     (2..polygon.len()).map(|i| [polygon[0], polygon[i - 1], polygon[i]])
 }
 
-/// Cuts off the part of a polygon where `side` is negative; returns the number of corners left.
-fn clipped(polygon: &mut Polygon, count: usize, side: impl Fn(DVec2) -> f64) -> usize {
-    let before = *polygon;
+/// Cuts off the part of a polygon where `sides` of its corners are negative; returns the number of corners left.
+fn clipped(polygon: &[DVec2], sides: &[f64; MOST_CORNERS], left: &mut Polygon) -> usize {
+    let count = polygon.len();
     let mut kept = 0;
-    let mut here = side(before[0]);
     for i in 0..count {
-        let (a, b) = (before[i], before[if i + 1 == count { 0 } else { i + 1 }]);
-        let there = side(b);
+        let next = if i + 1 == count { 0 } else { i + 1 };
+        let ([a, b], [here, there]) = ([polygon[i], polygon[next]], [sides[i], sides[next]]);
         if here >= 0.0 {
-            polygon[kept] = a;
+            left[kept] = a;
             kept += 1;
         }
         if (here >= 0.0) != (there >= 0.0) {
-            polygon[kept] = a + (b - a) * (here / (here - there));
+            left[kept] = a + (b - a) * (here / (here - there));
             kept += 1;
         }
-        here = there;
     }
     kept
 }

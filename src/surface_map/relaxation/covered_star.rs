@@ -11,7 +11,7 @@ use super::dent_energy::DentEnergy;
 use crate::math::golden::direction;
 use crate::math::matrix2::{SymmetricEigen, symmetric_eigen};
 use crate::math::rigid2::Rigid2;
-use crate::math::scalar::{ln, max, min};
+use crate::math::scalar::{exp, ln, max, min};
 use crate::math::triangle::{jacobian, signed_double_area};
 use crate::mesh::face_weights::{FaceWeight, PieceWeight};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
@@ -230,12 +230,28 @@ impl CoveredStar {
 
     /// The integral of the dents' energy over the star with its vertex at `z`; `None` where a triangle is not positive.
     pub fn cost(&self, z: DVec2, energy: &DentEnergy) -> Option<f64> {
+        self.cost_below(f64::INFINITY, 0, z, energy).ok()
+    }
+
+    /// The same where it is less than `bound`, summed from the triangle with number `first` on.
+    ///
+    /// # Errors
+    /// The number of the triangle at which the sum reaches the bound: the sum of a place beside it had better begin there.
+    pub(super) fn cost_below(
+        &self,
+        bound: f64,
+        first: usize,
+        z: DVec2,
+        energy: &DentEnergy,
+    ) -> Result<f64, usize> {
+        let is_turned = |ray: &Ray| signed_double_area(z, ray.ring[0], ray.ring[1]) <= 0.0;
+        if self.rays.iter().any(is_turned) {
+            return Err(first);
+        }
         let mut cost = 0.0;
-        for ray in &self.rays {
+        for k in (first..self.rays.len()).chain(0..first) {
+            let ray = &self.rays[k];
             let [p, q] = ray.ring;
-            if signed_double_area(z, p, q) <= 0.0 {
-                return None;
-            }
             let jacobian = jacobian(&[z, p, q], &ray.hats);
             let scale = 1.0 / jacobian.determinant();
             let own = BoxedTriangle::new([z, p, q]);
@@ -243,11 +259,15 @@ impl CoveredStar {
                 let area = own.overlap(&cover.triangle);
                 if area > 0.0 {
                     let counted = PieceWeight::of([ray.weight, cover.weight]);
+                    // No term is negative.
                     cost += area * scale * energy.density(&(cover.onto_rest * jacobian), counted);
+                    if cost >= bound {
+                        return Err(k);
+                    }
                 }
             }
         }
-        Some(cost)
+        Ok(cost)
     }
 
     /// A better place by one step of Newton's method; `least` is the logarithm of the cost at z.
@@ -270,10 +290,8 @@ impl CoveredStar {
         let mut step = newton(slope, [xx, xy, yy], 10.0 * room)?;
         // Down to 0.3^5 of the step, about 1/400. Chosen by hand.
         for _ in 0..6 {
-            if let Some(cost) = at(z + step)
-                && cost < least
-            {
-                return Some(Improved { z: z + step, log_cost: cost });
+            if let Ok(cost) = self.cost_below(exp(least), 0, z + step, energy) {
+                return Some(Improved { z: z + step, log_cost: ln(cost) });
             }
             step *= 0.3;
         }
@@ -286,15 +304,14 @@ impl CoveredStar {
     pub fn best_seen(&self, z: DVec2, least: f64, looks: usize, energy: &DentEnergy) -> Option<Improved> {
         let reach = self.rays.iter().map(|ray| ray.ring[0].distance(z)).fold(0.0, max);
         let [directions, distances] = LOOKS;
-        let mut best = Improved { z, log_cost: least };
+        let (mut best, mut first) = (Improved { z, log_cost: least }, 0);
         for step in looks * directions..(looks + 1) * directions {
             let mut away = direction(step) * reach;
             for _ in 0..distances {
                 away *= 0.5;
-                if let Some(log_cost) = self.cost(z + away, energy).map(ln)
-                    && log_cost < best.log_cost
-                {
-                    best = Improved { z: z + away, log_cost };
+                match self.cost_below(exp(best.log_cost), first, z + away, energy) {
+                    Ok(cost) => best = Improved { z: z + away, log_cost: ln(cost) },
+                    Err(ray) => first = ray,
                 }
             }
         }

@@ -475,11 +475,29 @@ mod tests {
             for looks in 0..3 {
                 let Some(seen) = star.best_seen(DVec2::ZERO, here, looks, &ENERGY) else { continue };
                 assert!(seen.log_cost < here, "{v:?}");
-                assert_eq!(star.cost(seen.z, &ENERGY).map(ln), Some(seen.log_cost), "{v:?}");
+                let there = ln(star.cost(seen.z, &ENERGY).unwrap());
+                assert!((there - seen.log_cost).abs() < 1e-12, "{v:?}");
                 found += 1;
             }
         }
         assert!(found > 10, "{found}");
+    }
+
+    #[test]
+    fn a_cost_is_known_below_its_bound_alone() {
+        let (layout, surface, start) = example();
+        let sides = sides(&layout, &start);
+        let (overlay, _) = overlaid(sides, &surface);
+        let sheets = sheets(sides, &overlay, &mut Silent).unwrap();
+        for v in free_vertices(sides[0]).step_by(7) {
+            let star = CoveredStar::around(&sheets[0], &sheets[1], v);
+            let cost = star.cost(DVec2::ZERO, &ENERGY).unwrap();
+            for first in 0..star.rays.len() {
+                let below = |share: f64| star.cost_below(share * cost, first, DVec2::ZERO, &ENERGY);
+                assert!((below(1.001).unwrap() - cost).abs() < 1e-12 * cost, "{v:?}");
+                assert!(below(0.999).is_err(), "{v:?}");
+            }
+        }
     }
 
     #[test]
