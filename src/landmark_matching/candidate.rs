@@ -105,15 +105,8 @@ impl Candidate {
             target: shapes[1].on_mesh(shapes[1].marks[t].vertex),
             origin: shapes[0].origin(s),
         };
+        let score = score(&assignment, &judged);
         let Judged { mean_log, remoteness, relief, images } = judged;
-        // A limb that only one of both bodies has costs nothing.
-        let unmatched = assignment.unmatched[0].min(assignment.unmatched[1]) as f64;
-        let score = mean_log
-            + REMOTENESS * remoteness
-            + RELIEF * relief
-            + UNMATCHED * unmatched
-            + ORDERS * (1.0 - assignment.agreement)
-            + roles(&assignment);
         let [source, target] =
             MeshSide::BOTH.map(|side| shapes[side].in_units_of_mesh(&images.levels[side].mesh));
         let picture = CoarsePicture { source, target, target_from_source: images.target_from_source };
@@ -135,6 +128,18 @@ impl Candidate {
             assignment,
         }
     }
+}
+
+/// The score of an assignment with its map.
+pub(super) fn score(assignment: &Assignment, judged: &Judged) -> f64 {
+    // A limb that only one of both bodies has costs nothing.
+    let unmatched = assignment.unmatched[0].min(assignment.unmatched[1]) as f64;
+    judged.mean_log
+        + REMOTENESS * judged.remoteness
+        + RELIEF * judged.relief
+        + UNMATCHED * unmatched
+        + ORDERS * (1.0 - assignment.agreement)
+        + roles(assignment)
 }
 
 /// The part of the score for noses that go to ears, and ears to ears.

@@ -3,7 +3,7 @@
 use super::options::MatchOptions;
 use super::shape::Shape;
 use crate::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_class};
-use crate::coarse_map::multilevel::LevelImages;
+use crate::coarse_map::multilevel::{CoarseMap, LevelImages};
 use crate::coarse_map::{CoarseMapError, LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse};
 use crate::landmarks::MeshSide;
 use crate::math::barycentric::interpolated;
@@ -24,11 +24,13 @@ pub(super) struct Judged {
     pub(super) images: LevelImages,
 }
 
-/// Makes and measures the coarse map with the pairs as landmarks; `None` where there is none.
+/// Makes and measures the coarse map with the pairs as landmarks; `None` where there is none. A map that is not promising after its first
+/// relaxation, a short one, is not relaxed any further.
 pub(super) fn judge(
     shapes: [&Shape; 2],
     pairs: &[[VertexId; 2]],
     options: &MatchOptions,
+    promises: impl Fn(&Judged) -> bool,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<Judged>, Cancelled> {
     let landmarked = |side: MeshSide| {
@@ -54,16 +56,23 @@ pub(super) fn judge(
         Err(_) => return Ok(None),
     };
     let mut map = chosen.map;
-    match map.relax(&options.relaxation, &mut Portion::new(monitor, 0.8, 1.0)) {
-        Err(MapError::Cancelled(stop)) => return Err(stop),
-        Err(_) => return Ok(None),
-        Ok(()) => {}
+    let first = measured(shapes, &full, &map);
+    if !first.as_ref().is_some_and(promises) {
+        return Ok(first);
     }
-    let mean_log = map.mean_log;
-    let Some(images) = map.images() else { return Ok(None) };
-    let difference = |of: Field| mean_difference(shapes, of, &full, &images);
+    match map.relax(&options.relaxation, &mut Portion::new(monitor, 0.8, 1.0)) {
+        Err(MapError::Cancelled(stop)) => Err(stop),
+        Err(_) => Ok(None),
+        Ok(()) => Ok(measured(shapes, &full, &map)),
+    }
+}
+
+/// A coarse map with its measures; `None` where a vertex has no image.
+fn measured(shapes: [&Shape; 2], full: &[LandmarkedMesh; 2], map: &CoarseMap<'_>) -> Option<Judged> {
+    let images = map.images()?;
+    let difference = |of: Field| mean_difference(shapes, of, full, &images);
     let [remoteness, relief] = [difference(|shape| &shape.remoteness), difference(|shape| &shape.relief)];
-    Ok(Some(Judged { mean_log, remoteness, relief, images }))
+    Some(Judged { mean_log: map.mean_log, remoteness, relief, images })
 }
 
 /// Values at the vertices of a body's level.
@@ -87,4 +96,33 @@ fn mean_difference(shapes: [&Shape; 2], of: Field, full: &[LandmarkedMesh; 2], i
     };
     let sum: f64 = source.mesh.vertices().map(|v| areas[v] * difference(v)).sum();
     sum / areas.iter().sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::shape::Body;
+    use super::super::test_bodies::four_footed;
+    use super::*;
+    use crate::monitor::Silent;
+
+    #[test]
+    fn only_what_promises_is_relaxed_to_the_end() {
+        let mesh = four_footed();
+        let options = MatchOptions::default();
+        let body = Body { mesh: &mesh, given: &[], may_mark: None };
+        let shape = Shape::new(body, &options, &mut Silent).unwrap();
+        // Each end goes to the next: a map far from an isometry.
+        let ends: Vec<VertexId> = shape.main(&options).iter().map(|&k| shape.marks[k].vertex).collect();
+        let pairs: Vec<[VertexId; 2]> =
+            (0..ends.len()).map(|k| [ends[k], ends[(k + 1) % ends.len()]]).collect();
+        let judged = |promises: bool| {
+            judge([&shape; 2], &pairs, &options, |_| promises, &mut Silent).unwrap().unwrap()
+        };
+        let [short, long] = [false, true].map(judged);
+        assert!(long.mean_log < 0.98 * short.mean_log, "{} {}", long.mean_log, short.mean_log);
+        // What promises is known before.
+        let judged =
+            judge([&shape; 2], &pairs, &options, |first| first.mean_log < short.mean_log, &mut Silent);
+        assert_eq!(judged.unwrap().unwrap().mean_log, short.mean_log);
+    }
 }

@@ -4,11 +4,11 @@
 //! their distances and by the orders in which shortest paths lead to them (`search`). The best are judged by their coarse maps
 //! (`judge`), then changed a little as long as that helps (`moves`). The verdict compares the best with those that differ from it.
 
-use super::candidate::{Candidate, PictureOnMesh};
+use super::candidate::{Candidate, PictureOnMesh, score};
 use super::candidates::{cheapest, chosen};
 use super::heads::with_twins;
 use super::input::MatchInput;
-use super::judge::judge;
+use super::judge::{Judged, judge};
 use super::moves::moves;
 use super::options::MatchOptions;
 use super::parting::difference;
@@ -118,16 +118,19 @@ fn check(input: MatchInput<'_>) -> Result<(), MatchError> {
     Ok(())
 }
 
-/// The candidate of an assignment; `None` where it has no map.
+/// The candidate of an assignment; `None` where it has no map. Its map is relaxed to the end where it scores less than `bound` after a short
+/// relaxation.
 fn candidate(
     shapes: [&Shape; 2],
     assignment: Assignment,
+    bound: f64,
     options: &MatchOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<Candidate>, Cancelled> {
     let vertices = |pair: &[usize; 2]| MeshSide::BOTH.map(|side| shapes[side].marks[pair[side]].vertex);
     let pairs: Vec<[VertexId; 2]> = assignment.pairs.iter().map(vertices).chain(assignment.between).collect();
-    let judged = judge(shapes, &pairs, options, monitor)?;
+    let promises = |judged: &Judged| score(&assignment, judged) < bound;
+    let judged = judge(shapes, &pairs, options, promises, monitor)?;
     Ok(judged.map(|judged| Candidate::new(shapes, assignment, judged)))
 }
 
@@ -144,9 +147,9 @@ impl Search<'_> {
     /// Judges an assignment; returns whether it is the best so far.
     fn judge(&mut self, assignment: &Assignment, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
         self.judged += 1;
-        let Some(candidate) = candidate(self.shapes, assignment.clone(), self.options, monitor)? else {
-            return Ok(false);
-        };
+        let bound = self.least_score() + self.options.promising;
+        let candidate = candidate(self.shapes, assignment.clone(), bound, self.options, monitor)?;
+        let Some(candidate) = candidate else { return Ok(false) };
         let place = self.found.partition_point(|other| other.score <= candidate.score);
         let is_best = place == 0;
         if is_best {
@@ -191,7 +194,8 @@ impl Search<'_> {
             }
             let share = |k: usize| k as f64 / most as f64;
             let watched = &mut Portion::new(monitor, share(k), share(k + 1));
-            let found = candidate(shapes, assignment, self.options, watched)?;
+            // The map onto a body that is mirrored is better at once than the best onto the body itself.
+            let found = candidate(shapes, assignment, self.least_score(), self.options, watched)?;
             best = best.into_iter().chain(found).min_by(|a, b| a.score.total_cmp(&b.score));
         }
         Ok(best)

@@ -79,6 +79,12 @@ impl Reflection {
         costs.into_iter().take(REFLECTIONS).map(|(_, reflection)| with_lesser(reflection)).collect()
     }
 
+    /// The reflection with each tip replaced by the one that stands for its place.
+    pub(super) fn of_places(&self, places: &[usize]) -> Self {
+        let pairs = self.pairs.iter().map(|pair| pair.map(|k| places[k])).collect();
+        Self { pairs, middle: self.middle.iter().map(|&k| places[k]).collect() }
+    }
+
     /// Adds the lesser tips that lie on the middle line.
     fn with_middle(mut self, shape: &Shape, lesser: &[usize]) -> Self {
         let is_free = |k: &usize| self.pairs.iter().flatten().all(|other| other != k);
@@ -203,6 +209,24 @@ mod tests {
         assert!(!keeps(&[[0, 0], [1, 2]]));
         assert!(!keeps(&[[0, 7], [1, 1]]));
         assert!(!keeps_sides([&body, &[]], &[[4, 4]]));
+    }
+
+    #[test]
+    fn any_toe_is_the_foot() {
+        let body = Reflection { pairs: vec![[0, 1], [2, 3]], middle: vec![4] };
+        // A second toe of each of two feet, the left and the right.
+        let places = [0, 1, 2, 3, 4, 1, 2];
+        let of_places = |pairs: &[[usize; 2]]| -> Vec<[usize; 2]> {
+            pairs.iter().map(|pair| pair.map(|k| places[k])).collect()
+        };
+        let keeps = |pairs: &[[usize; 2]]| {
+            let body = [body.of_places(&places)];
+            keeps_sides([&body, &body], &of_places(pairs))
+        };
+        let pairs = [[0, 0], [1, 5], [2, 6], [3, 3], [4, 4]];
+        assert!(keeps(&pairs) && !keeps_sides([&[body.clone()], &[body.clone()]], &pairs));
+        assert!(keeps(&[[5, 1], [0, 0]]) && keeps(&[[5, 0], [0, 5]]));
+        assert!(!keeps(&[[0, 0], [5, 3]]) && !keeps(&[[5, 4]]));
     }
 
     #[test]

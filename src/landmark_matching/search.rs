@@ -60,6 +60,10 @@ pub(super) struct Tables<'a> {
     pub(super) reflections: [Vec<Reflection>; 2],
     /// The roles of the tips of each body.
     pub(super) roles: [Roles; 2],
+    /// For each mark of each body the one that stands for its place.
+    places: [Vec<usize>; 2],
+    /// The reflections of the places of each body.
+    place_reflections: [Vec<Reflection>; 2],
     /// The logarithm of the distance between each two marks of each body.
     log_distance: [Vec<Vec<f64>>; 2],
     /// The difference of descriptors between each mark of the source and each mark of the target.
@@ -81,7 +85,21 @@ impl<'a> Tables<'a> {
         let reflections = MeshSide::BOTH.map(|side| Reflection::all_of(shapes[side], &main[side]));
         let roles =
             MeshSide::BOTH.map(|side| Roles::new(shapes[side], reflections[side].first(), &main[side]));
-        Self { shapes, main, reflections, roles, log_distance, difference }
+        let places = shapes.map(Shape::places);
+        let place_reflections = MeshSide::BOTH
+            .map(|side| reflections[side].iter().map(|of| of.of_places(&places[side])).collect());
+        Self { shapes, main, reflections, roles, places, place_reflections, log_distance, difference }
+    }
+
+    /// Whether pairs of marks, or of their places, take left and right of one body to those of the other. Which toe of a foot is its end
+    /// differs from body to body.
+    fn keeps_sides(&self, pairs: &[[usize; 2]]) -> bool {
+        let keeps = |reflections: &[Vec<Reflection>; 2], pairs: &[[usize; 2]]| {
+            keeps_sides(reflections.each_ref().map(Vec::as_slice), pairs)
+        };
+        let of_places: Vec<[usize; 2]> =
+            pairs.iter().map(|pair| MeshSide::BOTH.map(|side| self.places[side][pair[side]])).collect();
+        keeps(&self.reflections, pairs) || keeps(&self.place_reflections, &of_places)
     }
 
     fn misfit(&self, [s, t]: [usize; 2], [p, q]: [usize; 2]) -> f64 {
@@ -186,7 +204,7 @@ impl Partial {
             unmatched_cost: UNMATCHED * self.unmatched_cost,
             agreement: 1.0 - orders(tables.shapes, &clear).reversed,
             unmatched: self.unmatched,
-            keeps_sides: keeps_sides(tables.reflections.each_ref().map(Vec::as_slice), &self.pairs),
+            keeps_sides: tables.keeps_sides(&self.pairs),
             pairs: self.pairs,
             between: None,
         }

@@ -17,7 +17,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 /// Shares of the area whose enclosing radii are the descriptor of a tip: from the tip of a toe to the whole body. Chosen by hand.
 const SHARES: [f64; 10] = [0.003, 0.006, 0.0125, 0.025, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0];
 
-/// A tip nearer than this to a given landmark is at the same place; the area is 1. Chosen by hand.
+/// Marks nearer to each other than this are at the same place; the area is 1. Chosen by hand.
 const SAME_PLACE: f64 = 0.12;
 
 /// Tips whose log radii differ by less than this in the mean may be partners. Chosen by hand.
@@ -172,6 +172,17 @@ impl Shape {
         0.5 * (self.marks[a].field[self.marks[b].vertex] + self.marks[b].field[self.marks[a].vertex])
     }
 
+    /// For each mark the one that stands for its place: of several toes of a foot, or fingers of a hand, the most persistent.
+    pub(super) fn places(&self) -> Vec<usize> {
+        let mut places: Vec<usize> = Vec::new();
+        for mark in 0..self.marks.len() {
+            let stands = |&other: &usize| places[other] == other && self.distance([mark, other]) < SAME_PLACE;
+            let place = (0..mark).find(stands).unwrap_or(mark);
+            places.push(place);
+        }
+        places
+    }
+
     /// A vertex of the level as one of the full mesh.
     pub(super) fn on_mesh(&self, v: VertexId) -> VertexId {
         self.level.vertices[v]
@@ -301,6 +312,18 @@ mod tests {
     use super::*;
     use crate::mesh::generators::icosphere;
     use crate::monitor::Silent;
+
+    #[test]
+    fn of_near_marks_the_first_stands_for_their_place() {
+        let mesh = icosphere(3);
+        let beside = mesh.head(mesh.outgoing(VertexId(0)));
+        let away = mesh.positions()[VertexId(0)];
+        let distance = |v: &VertexId| mesh.positions()[*v].distance(away);
+        let far = mesh.vertices().max_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
+        let body = Body { mesh: &mesh, given: &[VertexId(0), far, beside], may_mark: None };
+        let shape = Shape::new(body, &MatchOptions::default(), &mut Silent).unwrap();
+        assert_eq!(shape.places()[..3], [0, 1, 0]);
+    }
 
     #[test]
     fn places_that_are_asked_for_may_be_marked() {
