@@ -45,7 +45,8 @@ impl BoxedTriangle {
         if !(self.low.cmple(clip.high).all() && clip.low.cmple(self.high).all()) {
             return None;
         }
-        let [mut polygon, mut spare]: [Polygon; 2] = [[DVec2::ZERO; MOST_CORNERS]; 2];
+        let mut memory: [Polygon; 2] = [[DVec2::ZERO; MOST_CORNERS]; 2];
+        let [mut polygon, mut spare] = memory.each_mut();
         polygon[..3].copy_from_slice(&self.corners);
         let mut count = 3;
         for k in 0..3 {
@@ -58,8 +59,8 @@ impl BoxedTriangle {
                 is_within &= *side >= 0.0;
             }
             if !is_within {
-                count = clipped(&polygon[..count], &sides, &mut spare);
-                std::mem::swap(&mut polygon, &mut spare);
+                count = clipped(&polygon[..count], &sides, spare);
+                (polygon, spare) = (spare, polygon);
             }
             if count < 3 {
                 return None;
