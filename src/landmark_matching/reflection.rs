@@ -213,18 +213,18 @@ mod tests {
 
     #[test]
     fn any_toe_is_the_foot() {
-        let body = Reflection { pairs: vec![[0, 1], [2, 3]], middle: vec![4] };
+        let body = [Reflection { pairs: vec![[0, 1], [2, 3]], middle: vec![4] }];
         // A second toe of each of two feet, the left and the right.
         let places = [0, 1, 2, 3, 4, 1, 2];
         let of_places = |pairs: &[[usize; 2]]| -> Vec<[usize; 2]> {
             pairs.iter().map(|pair| pair.map(|k| places[k])).collect()
         };
         let keeps = |pairs: &[[usize; 2]]| {
-            let body = [body.of_places(&places)];
-            keeps_sides([&body, &body], &of_places(pairs))
+            let of_feet = [body[0].of_places(&places)];
+            keeps_sides([&of_feet, &of_feet], &of_places(pairs))
         };
         let pairs = [[0, 0], [1, 5], [2, 6], [3, 3], [4, 4]];
-        assert!(keeps(&pairs) && !keeps_sides([&[body.clone()], &[body.clone()]], &pairs));
+        assert!(keeps(&pairs) && !keeps_sides([&body, &body], &pairs));
         assert!(keeps(&[[5, 1], [0, 0]]) && keeps(&[[5, 0], [0, 5]]));
         assert!(!keeps(&[[0, 0], [5, 3]]) && !keeps(&[[5, 4]]));
     }

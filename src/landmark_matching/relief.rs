@@ -3,9 +3,8 @@
 //! Distances along a surface hardly tell the front of a body from its back, or the upper side of a hand from the palm: a map that exchanges
 //! them is nearly as isometric as the right one. Chest, knees and nose stand out on one side only.
 
-use crate::math::triangle::cotangent_between;
 use crate::mesh::normals::vertex_normals;
-use crate::mesh::{SurfaceMesh, VertexId};
+use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 use crate::numerics::conjugate_gradients::{CgOptions, CgWorkspace, LinearOperator, Preconditioner};
 use glam::DVec3;
 use typed_index_collections::TiVec;
@@ -32,38 +31,38 @@ pub(super) fn relief(mesh: &SurfaceMesh) -> TiVec<VertexId, f64> {
 /// A step of the flow of heat: masses plus the time times the cotan Laplacian.
 struct Heat {
     masses: Vec<f64>,
-    /// Neighbours of each vertex with their weight.
-    rows: Vec<Vec<(u32, f64)>>,
+    /// Ends and weight of each edge.
+    edges: Vec<([usize; 2], f64)>,
     diagonal: Vec<f64>,
 }
 
 impl Heat {
     fn new(mesh: &SurfaceMesh, time: f64) -> Self {
-        let masses = mesh.vertex_areas().into_iter().collect::<Vec<f64>>();
-        let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); masses.len()];
+        let masses = mesh.vertex_areas().raw;
+        // Triangles without area carry no heat.
+        let half = |h: HalfedgeId| {
+            let cotangent = mesh.cotangent(h);
+            if cotangent.is_finite() { 0.5 * time * cotangent.clamp(-1e3, 1e3) } else { 0.0 }
+        };
+        let ends = |h: HalfedgeId| [mesh.tail(h), mesh.head(h)].map(VertexId::index);
+        let edges: Vec<_> = mesh.edges().map(|h| (ends(h), half(h) + half(mesh.twin(h)))).collect();
         let mut diagonal = masses.clone();
-        for corners in mesh.triangles() {
-            for k in 0..3 {
-                let [a, b, c] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
-                let [p, q, r] = [a, b, c].map(|v| mesh.positions()[v]);
-                let cotangent = cotangent_between(p - r, q - r);
-                // Triangles without area carry no heat.
-                let w = if cotangent.is_finite() { 0.5 * time * cotangent.clamp(-1e3, 1e3) } else { 0.0 };
-                for (v, other) in [(a, b), (b, a)] {
-                    rows[v.index()].push((other.0, w));
-                    diagonal[v.index()] += w;
-                }
-            }
+        for (ends, weight) in &edges {
+            ends.iter().for_each(|&v| diagonal[v] += weight);
         }
-        Self { masses, rows, diagonal }
+        Self { masses, edges, diagonal }
     }
 }
 
 impl LinearOperator<DVec3> for Heat {
     fn apply(&self, x: &[DVec3], y: &mut [DVec3]) {
-        for (k, out) in y.iter_mut().enumerate() {
-            let flows: DVec3 = self.rows[k].iter().map(|&(j, w)| w * x[j as usize]).sum();
-            *out = self.diagonal[k] * x[k] - flows;
+        for (out, (mass, &x)) in y.iter_mut().zip(self.masses.iter().zip(x)) {
+            *out = *mass * x;
+        }
+        for &([a, b], weight) in &self.edges {
+            let flow = weight * (x[a] - x[b]);
+            y[a] += flow;
+            y[b] -= flow;
         }
     }
 }

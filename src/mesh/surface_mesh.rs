@@ -190,6 +190,12 @@ impl SurfaceMesh {
         self.positions[self.tail(h)].distance(self.positions[self.head(h)])
     }
 
+    /// The cotangent of the angle opposite a halfedge in its face; infinite or not a number where the face has no area.
+    pub fn cotangent(&self, h: HalfedgeId) -> f64 {
+        let [tail, head, apex] = [h, h.next(), h.prev()].map(|corner| self.positions[self.tail(corner)]);
+        triangle::cotangent_between(tail - apex, head - apex)
+    }
+
     /// Area of a face.
     pub fn face_area(&self, f: FaceId) -> f64 {
         let [p, q, r] = self.corners(f);

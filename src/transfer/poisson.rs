@@ -1,6 +1,5 @@
 //! Positions whose gradients are nearest to wanted ones, by area: a Poisson system with the cotangent Laplacian.
 
-use crate::math::triangle::cotangent_between;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::numerics::approximate_cholesky::ApproximateCholesky;
@@ -96,22 +95,16 @@ pub(super) fn weighted_hats(mesh: &SurfaceMesh, f: FaceId) -> [DVec3; 3] {
     [r - q, p - r, q - p].map(|side| 0.5 * normal.cross(side))
 }
 
-/// The cotangent of the angle opposite a halfedge.
-fn cotangent(mesh: &SurfaceMesh, h: HalfedgeId) -> f64 {
-    let [tail, head, apex] = [mesh.tail(h), mesh.head(h), mesh.tail(h.prev())].map(|v| mesh.positions()[v]);
-    cotangent_between(tail - apex, head - apex)
-}
-
 /// The weight of a face: 1, except for the thinnest.
 fn face_weight(mesh: &SurfaceMesh, f: FaceId) -> f64 {
-    let largest = f.halfedges().map(|h| cotangent(mesh, h).abs()).into_iter().fold(0.0, f64::max);
+    let largest = f.halfedges().map(|h| mesh.cotangent(h).abs()).into_iter().fold(0.0, f64::max);
     if largest > LARGEST_COTANGENT { LARGEST_COTANGENT / largest } else { 1.0 }
 }
 
 /// The Laplacian of a surface: half the cotangents opposite each edge.
 fn cotangent_laplacian(mesh: &SurfaceMesh) -> Graph {
     let half = |h: HalfedgeId| {
-        let weighted = 0.5 * cotangent(mesh, h) * face_weight(mesh, h.face());
+        let weighted = 0.5 * mesh.cotangent(h) * face_weight(mesh, h.face());
         if weighted.is_finite() { weighted } else { 0.0 }
     };
     let edge = |h| (mesh.tail(h).0, mesh.head(h).0, half(h) + half(mesh.twin(h)));

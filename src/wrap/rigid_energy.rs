@@ -31,10 +31,10 @@ pub(super) fn edge_weights(
     face_weight: impl Fn(FaceId) -> f64,
 ) -> TiVec<HalfedgeId, f64> {
     let half = |h: HalfedgeId| {
-        let [tail, head, across] = [h, h.next(), h.prev()].map(|h| base.positions()[base.tail(h)]);
-        let (u, v) = (tail - across, head - across);
-        let cotangent = u.dot(v) / max(u.cross(v).length(), f64::MIN_POSITIVE);
-        0.5 * face_weight(h.face()) * cotangent.clamp(-20.0, 20.0)
+        let cotangent = base.cotangent(h);
+        // That of an edge without length is not a number.
+        let bounded = if cotangent.is_nan() { 0.0 } else { cotangent.clamp(-20.0, 20.0) };
+        0.5 * face_weight(h.face()) * bounded
     };
     let floor = |h: HalfedgeId| 0.05 * face_weight(h.face());
     base.halfedges()

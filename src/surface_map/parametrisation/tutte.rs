@@ -13,7 +13,6 @@ use super::unknowns::Unknowns;
 use crate::layout::PatchedMesh;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::{max, min};
-use crate::math::triangle::cotangent_between;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Pulse, Step};
 use crate::numerics::approximate_cholesky::ApproximateCholesky;
@@ -86,11 +85,7 @@ fn transitions(patched: &PatchedMesh, surface: &ConeSurface) -> TiVec<HalfedgeId
 
 /// The weight of an edge: half the cotangents of the angles opposite, within bounds.
 fn weight(mesh: &SurfaceMesh, edge: HalfedgeId) -> f64 {
-    let cotangent = |h: HalfedgeId| {
-        let [tail, head, apex] = [h, h.next(), h.prev()].map(|corner| mesh.positions()[mesh.tail(corner)]);
-        cotangent_between(tail - apex, head - apex)
-    };
-    let weight = 0.5 * (cotangent(edge) + cotangent(mesh.twin(edge)));
+    let weight = 0.5 * (mesh.cotangent(edge) + mesh.cotangent(mesh.twin(edge)));
     // Beside a face without area it may be NaN, which becomes the least weight.
     min(max(weight, LEAST_WEIGHT), MOST_WEIGHT)
 }
