@@ -130,6 +130,14 @@ impl Candidate {
     }
 }
 
+impl Candidate {
+    /// The score without its remoteness. That tells the better of two candidates, but right maps between bodies of different proportions have
+    /// as much of it as wrong ones between like bodies.
+    pub(super) fn score_without_remoteness(&self) -> f64 {
+        self.score - REMOTENESS * self.remoteness
+    }
+}
+
 /// The score of an assignment with its map.
 pub(super) fn score(assignment: &Assignment, judged: &Judged) -> f64 {
     // A limb that only one of both bodies has costs nothing.

@@ -65,9 +65,9 @@ impl Verdict {
                     number(MeshSide::Source, *source)
                 )
             }
-            Self::Mirrored { .. } => {
-                "The target fits far better as its mirror image: map onto that (--mirror-target), or give landmarks.".to_owned()
-            }
+            Self::Mirrored { score } => format!(
+                "The target fits far better as its mirror image (score {score:.3}): map onto that (--mirror-target), or give landmarks."
+            ),
             Self::Unknown { places } => {
                 let places: Vec<String> =
                     places.iter().map(|&v| number(MeshSide::Source, v).to_string()).collect();
@@ -111,11 +111,14 @@ pub(super) fn verdict(
     let rival = number.map(|number| &candidates[number]);
     let near = rival.is_some_and(|rival| rival.score < best.score + limits.margin);
     let clear = best.pairs.iter().filter(|pair| pair.origin != PairOrigin::Between).count();
-    let sides = best.assignment.keeps_sides;
-    let good = if sides { limits.sure_score } else { limits.sure_score_without_sides };
     // A given pair settles a doubt that came of the score alone.
-    let good = good + limits.per_given * input.given.len() as f64;
-    let fits = best.score < good && best.agreement >= limits.agreement;
+    let settled = limits.per_given * input.given.len() as f64;
+    let scores_well = if best.assignment.keeps_sides {
+        best.score_without_remoteness() < limits.sure_score + settled
+    } else {
+        best.score < limits.sure_score_without_sides + settled
+    };
+    let fits = scores_well && best.agreement >= limits.agreement;
     // One pair less is enough for a map that is nearly an isometry, as that of a body with few ends onto another pose of it.
     let isometric = best.score < limits.sure_score_without_sides;
     let enough = clear + usize::from(isometric) >= limits.least_pairs;
@@ -129,7 +132,7 @@ pub(super) fn verdict(
 /// Whether the best candidate onto the target's mirror image fits far better than the best onto the target. That of a man fits better where
 /// he raises the other arm, but with the same distortion.
 fn is_mirrored(best: &Candidate, image: &Candidate, limits: &VerdictLimits) -> bool {
-    image.score < limits.sure_score
+    image.score_without_remoteness() < limits.sure_score
         && image.score + limits.margin < best.score
         && image.mean_log < limits.mirror_share * best.mean_log
 }
@@ -220,8 +223,8 @@ mod tests {
         };
         let verdict = |scores: [f64; 2], given: &[[VertexId; 2]]| verdict_with(None, scores, given);
         assert_eq!(verdict([0.40, 1.10], &[]), "sure");
-        assert_eq!(verdict([0.75, 1.10], &[]), "doubtful");
-        assert_eq!(verdict([0.75, 1.10], &given), "sure");
+        assert_eq!(verdict([0.62, 1.10], &[]), "doubtful");
+        assert_eq!(verdict([0.62, 1.10], &given), "sure");
         assert_eq!(verdict([0.40, 0.45], &given), "doubtful");
         assert_eq!(verdict([1.10, 1.90], &given), "unknown");
         // The mirror image of a body that is nearly symmetric fits as well; in another pose it may fit better, as distorted.

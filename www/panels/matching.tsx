@@ -31,7 +31,7 @@ const VERDICTS: Readonly<Record<MatchReport['verdict']['kind'], Told>> = {
   mirrored: {
     icon: 'doubt',
     word: 'Mirrored.',
-    sentence: 'The target fits far better as its mirror image. Mirror it, then find landmarks again.',
+    sentence: 'The target fits far better as its mirror image. Mirror it and look again.',
   },
   unknown: {
     icon: 'help',
