@@ -7,6 +7,7 @@ use super::body::Body;
 use super::marching::Grid;
 use crate::math::disjoint_sets::DisjointSets;
 use crate::math::scalar::{max, min};
+use crate::math::triangle::cotangent_between;
 use crate::mesh::collapsible::{CollapsibleMesh, ShapeLimits};
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use glam::DVec3;
@@ -198,7 +199,9 @@ fn flip_to_delaunay(mesh: &mut CollapsibleMesh, positions: &TiSlice<VertexId, DV
             continue;
         }
         let [a, b, c, d] = [h, t, h.prev(), t.prev()].map(|g| positions[mesh.tail(g)]);
-        if cotangent(c, a, b) + cotangent(d, a, b) >= -1e-6 {
+        let sum = cotangent_between(a - c, b - c) + cotangent_between(a - d, b - d);
+        // That of a triangle without area may be not a number.
+        if sum.is_nan() || sum >= -1e-6 {
             continue;
         }
         let normals =
@@ -208,11 +211,6 @@ fn flip_to_delaunay(mesh: &mut CollapsibleMesh, positions: &TiSlice<VertexId, DV
             mesh.flip(h);
         }
     }
-}
-
-/// The cotangent of the angle at `p` of the triangle p, q, r.
-fn cotangent(p: DVec3, q: DVec3, r: DVec3) -> f64 {
-    (q - p).dot(r - p) / max((q - p).cross(r - p).length(), 1e-300)
 }
 
 /// The level as a mesh of its own.

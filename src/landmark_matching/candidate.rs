@@ -128,9 +128,7 @@ impl Candidate {
             assignment,
         }
     }
-}
 
-impl Candidate {
     /// The score without its remoteness. That tells the better of two candidates, but right maps between bodies of different proportions have
     /// as much of it as wrong ones between like bodies.
     pub(super) fn score_without_remoteness(&self) -> f64 {

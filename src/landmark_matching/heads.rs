@@ -57,13 +57,12 @@ pub(super) fn with_twins(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignme
 mod tests {
     use super::super::options::MatchOptions;
     use super::super::roles::{Roles, kept};
-    use super::super::shape::{Body, Shape};
-    use super::super::test_bodies::ball_with_ends;
+    use super::super::shape::Shape;
+    use super::super::test_bodies::{ball_with_ends, shape};
     use super::*;
     use crate::mesh::SurfaceMesh;
     use crate::mesh::generators::icosphere;
     use crate::mesh::mirror::mirrored;
-    use crate::monitor::Silent;
     use glam::{DQuat, DVec3};
 
     /// Four feet, the hind ones nearer to each other, and a tail.
@@ -83,11 +82,6 @@ mod tests {
         let limbs = LIMBS.iter().map(|&end| (end, 2.0));
         let ends: Vec<(DVec3, f64)> = limbs.chain(HEAD.into_iter().zip([1.0, 0.6, 0.6])).collect();
         ball_with_ends(&ends, 40.0)
-    }
-
-    fn shape(mesh: &SurfaceMesh) -> Shape {
-        let body = Body { mesh, given: &[], may_mark: None };
-        Shape::new(body, &MatchOptions::default(), &mut Silent).unwrap()
     }
 
     /// The end of the body that each mark is: the limbs come first in the numbers, and 8 stands for none. The mesh has the vertices of

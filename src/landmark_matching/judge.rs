@@ -100,17 +100,13 @@ fn mean_difference(shapes: [&Shape; 2], of: Field, full: &[LandmarkedMesh; 2], i
 
 #[cfg(test)]
 mod tests {
-    use super::super::shape::Body;
-    use super::super::test_bodies::four_footed;
+    use super::super::test_bodies::{four_footed, shape};
     use super::*;
     use crate::monitor::Silent;
 
     #[test]
     fn only_what_promises_is_relaxed_to_the_end() {
-        let mesh = four_footed();
-        let options = MatchOptions::default();
-        let body = Body { mesh: &mesh, given: &[], may_mark: None };
-        let shape = Shape::new(body, &options, &mut Silent).unwrap();
+        let (shape, options) = (shape(&four_footed()), MatchOptions::default());
         // Each end goes to the next: a map far from an isometry.
         let ends: Vec<VertexId> = shape.main(&options).iter().map(|&k| shape.marks[k].vertex).collect();
         let pairs: Vec<[VertexId; 2]> =

@@ -47,18 +47,9 @@ fn turn(root: &Mark, marks: [usize; 3]) -> Option<bool> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::options::MatchOptions;
-    use super::super::shape::Body;
-    use super::super::test_bodies::{ball_with_ends, four_footed};
+    use super::super::test_bodies::{ball_with_ends, four_footed, shape};
     use super::*;
-    use crate::mesh::SurfaceMesh;
-    use crate::monitor::Silent;
     use glam::DVec3;
-
-    fn shape(mesh: &SurfaceMesh) -> Shape {
-        let body = Body { mesh, given: &[], may_mark: None };
-        Shape::new(body, &MatchOptions::default(), &mut Silent).unwrap()
-    }
 
     /// The pairs of each tip with itself.
     fn own(shape: &Shape) -> Vec<[usize; 2]> {

@@ -169,19 +169,15 @@ pub(super) fn keeps_sides(reflections: [&[Reflection]; 2], pairs: &[[usize; 2]])
 #[cfg(test)]
 mod tests {
     use super::super::options::MatchOptions;
-    use super::super::shape::Body;
-    use super::super::test_bodies::four_footed;
+    use super::super::test_bodies::{four_footed, shape};
     use super::*;
-    use crate::monitor::Silent;
     use glam::DVec3;
 
     #[test]
     fn the_partners_of_a_body_are_mirror_images() {
         let mesh = four_footed();
-        let options = MatchOptions::default();
-        let body = Body { mesh: &mesh, given: &[], may_mark: None };
-        let shape = Shape::new(body, &options, &mut Silent).unwrap();
-        let reflection = Reflection::all_of(&shape, &shape.main(&options)).remove(0);
+        let shape = shape(&mesh);
+        let reflection = Reflection::all_of(&shape, &shape.main(&MatchOptions::default())).remove(0);
         let place = |mark: usize| mesh.positions()[shape.on_mesh(shape.marks[mark].vertex)];
         assert_eq!((reflection.pairs.len(), reflection.middle.len()), (2, 2), "{reflection:?}");
         for [a, b] in reflection.pairs {

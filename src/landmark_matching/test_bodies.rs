@@ -1,8 +1,11 @@
 //! Bodies for tests: balls with ends.
 
+use super::options::MatchOptions;
+use super::shape::{Body, Shape};
 use crate::math::scalar::exp;
 use crate::mesh::SurfaceMesh;
 use crate::mesh::generators::icosphere;
+use crate::monitor::Silent;
 use glam::DVec3;
 
 /// A ball of radius 1 with an end in each direction, as much higher than the ball as is said beside it; the larger `sharpness`, the
@@ -29,4 +32,10 @@ pub(super) const ENDS: [DVec3; 6] = [
 /// A ball with a limb at each of [`ENDS`], symmetric about the plane y = 0.
 pub(super) fn four_footed() -> SurfaceMesh {
     ball_with_ends(&ENDS.map(|end| (end, 2.0)), 30.0)
+}
+
+/// A body without given landmarks; every vertex may be one.
+pub(super) fn shape(mesh: &SurfaceMesh) -> Shape {
+    let body = Body { mesh, given: &[], may_mark: None };
+    Shape::new(body, &MatchOptions::default(), &mut Silent).unwrap()
 }

@@ -180,13 +180,11 @@ fn nearest_vertex(index: &SurfaceIndex<'_>, place: DVec3) -> VertexId {
 mod tests {
     use super::super::difference::{Difference, DifferenceKind};
     use super::super::input::MayMark;
-    use super::super::options::MatchOptions;
     use super::super::pair::MatchedPair;
-    use super::super::shape::Body;
+    use super::super::test_bodies::shape;
     use super::*;
     use crate::mesh::generators::icosphere;
     use crate::mesh::{SurfaceMesh, SurfacePoint};
-    use crate::monitor::Silent;
     use typed_index_collections::TiVec;
 
     /// The image of a ball's vertex under half a turn about the last axis: what lies on it stays, what is far from it goes far.
@@ -214,8 +212,7 @@ mod tests {
         let mesh = icosphere(2);
         let given = [[VertexId(0); 2]];
         let verdict_with = |mirrored: Option<&Candidate>, scores: [f64; 2], given: &[[VertexId; 2]]| {
-            let body = Body { mesh: &mesh, given: &[], may_mark: None };
-            let shape = Shape::new(body, &MatchOptions::default(), &mut Silent).unwrap();
+            let shape = shape(&mesh);
             let input = MatchInput { given, ..MatchInput::new(&mesh, &mesh) };
             let candidates = right_and_turned(&mesh, scores);
             let found = Found { candidates: &candidates, mirrored };

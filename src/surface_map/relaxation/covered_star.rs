@@ -289,8 +289,9 @@ impl CoveredStar {
         let xy = (corner - e - n + least) / (h * h);
         let mut step = newton(slope, [xx, xy, yy], 10.0 * room)?;
         // Down to 0.3^5 of the step, about 1/400. Chosen by hand.
+        let bound = exp(least);
         for _ in 0..6 {
-            if let Ok(cost) = self.cost_below(exp(least), 0, z + step, energy) {
+            if let Ok(cost) = self.cost_below(bound, 0, z + step, energy) {
                 return Some(Improved { z: z + step, log_cost: ln(cost) });
             }
             step *= 0.3;
@@ -304,13 +305,17 @@ impl CoveredStar {
     pub fn best_seen(&self, z: DVec2, least: f64, looks: usize, energy: &DentEnergy) -> Option<Improved> {
         let reach = self.rays.iter().map(|ray| ray.ring[0].distance(z)).fold(0.0, max);
         let [directions, distances] = LOOKS;
-        let (mut best, mut first) = (Improved { z, log_cost: least }, 0);
+        let mut best = Improved { z, log_cost: least };
+        let (mut bound, mut first) = (exp(least), 0);
         for step in looks * directions..(looks + 1) * directions {
             let mut away = direction(step) * reach;
             for _ in 0..distances {
                 away *= 0.5;
-                match self.cost_below(exp(best.log_cost), first, z + away, energy) {
-                    Ok(cost) => best = Improved { z: z + away, log_cost: ln(cost) },
+                match self.cost_below(bound, first, z + away, energy) {
+                    Ok(cost) => {
+                        best = Improved { z: z + away, log_cost: ln(cost) };
+                        bound = cost;
+                    }
                     Err(ray) => first = ray,
                 }
             }

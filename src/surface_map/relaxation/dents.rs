@@ -345,6 +345,11 @@ mod tests {
         (overlay, measured)
     }
 
+    fn covered<'a>(sides: [Parametrised<'a>; 2], surface: &ConeSurface) -> [Sheet<'a>; 2] {
+        let (overlay, _) = overlaid(sides, surface);
+        sheets(sides, &overlay, &mut Silent).unwrap()
+    }
+
     /// Puts a free vertex next to the middle of a side of its star that it can see, at `distance` of the way; `false` where
     /// there is none.
     fn dent(side: Parametrised<'_>, embedding: &mut Embedding, v: VertexId, distance: f64) -> bool {
@@ -466,8 +471,7 @@ mod tests {
     fn what_is_seen_is_better_and_within_the_star() {
         let (layout, surface, start) = example();
         let sides = sides(&layout, &start);
-        let (overlay, _) = overlaid(sides, &surface);
-        let sheets = sheets(sides, &overlay, &mut Silent).unwrap();
+        let sheets = covered(sides, &surface);
         let mut found = 0;
         for v in free_vertices(sides[1]).step_by(5) {
             let star = CoveredStar::around(&sheets[1], &sheets[0], v);
@@ -487,8 +491,7 @@ mod tests {
     fn a_cost_is_known_below_its_bound_alone() {
         let (layout, surface, start) = example();
         let sides = sides(&layout, &start);
-        let (overlay, _) = overlaid(sides, &surface);
-        let sheets = sheets(sides, &overlay, &mut Silent).unwrap();
+        let sheets = covered(sides, &surface);
         for v in free_vertices(sides[0]).step_by(7) {
             let star = CoveredStar::around(&sheets[0], &sheets[1], v);
             let cost = star.cost(DVec2::ZERO, &ENERGY).unwrap();
