@@ -57,7 +57,8 @@ pub fn choose_class<'a>(
 ) -> Result<Chosen<'a>, CoarseMapError> {
     let landmarks = coarse_landmarks(levels);
     let meshes = [&levels[0].coarse.mesh, &levels[1].coarse.mesh];
-    let mut candidates = Candidates::new(meshes, &landmarks, &mut Portion::new(monitor, 0.0, 0.0))?;
+    let candidates = Candidates::new(meshes, &landmarks, &mut Portion::new(monitor, 0.0, 0.0))?;
+    let mut candidates = candidates.with_descent(options.search.descent);
     let mut finalists = Finalists {
         levels,
         options: options.multilevel,

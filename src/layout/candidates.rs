@@ -54,6 +54,8 @@ pub struct Candidates<'a> {
     landmarks: &'a Landmarks,
     empty: Drawing,
     distances: LandmarkDistances,
+    /// Drawings of one descent, at most.
+    descent: usize,
     /// Number of batches of starts that were drawn.
     batches: usize,
     /// The least detour of the drawings, without layouts that turned out to have no map.
@@ -88,12 +90,18 @@ impl<'a> Candidates<'a> {
             landmarks,
             empty,
             distances,
+            descent: descent::MOST_DRAWINGS,
             batches: 0,
             least: f64::INFINITY,
             ready: Vec::new(),
             given: Vec::new(),
             failure: None,
         })
+    }
+
+    /// The same with at most this many drawings of one descent; starts are left as they are drawn where that is 0.
+    pub fn with_descent(self, descent: usize) -> Self {
+        Self { descent, ..self }
     }
 
     /// The straightest layout of a new class that was drawn and not given yet; `None` when all starts were drawn. Once a result is
@@ -133,11 +141,11 @@ impl<'a> Candidates<'a> {
         let detour = |drawing: &Drawing| drawing.detour(&self.distances);
         let straightest = starts.iter().min_by(|a, b| detour(a).total_cmp(&detour(b)));
         let ended = match straightest {
-            Some(start) => {
+            Some(start) if self.descent > 0 => {
                 let mut planner = Planner::new(&self.distances, 1.0, monitor);
-                Some(descent::straightest(start.clone(), &mut planner)?)
+                Some(descent::straightest(start.clone(), self.descent, &mut planner)?)
             }
-            None => None,
+            _ => None,
         };
         for drawing in ended.into_iter().chain(starts) {
             monitor.step(Step::default())?;

@@ -19,7 +19,7 @@ const LEAST_GAIN: f64 = 0.05;
 const LARGEST_RATIO: f64 = 2.0;
 
 /// Drawings of one descent, at most. Of 21 descents on seven pairs none took more than 19.
-const MOST_DRAWINGS: usize = 40;
+pub(super) const MOST_DRAWINGS: usize = 40;
 
 /// The last drawing of a descent is drawn anew at most this many times. On the 34 test pairs no third time lowered the detours by more than
 /// 0.001, but each refines the meshes by a sixth: without this bound cat and lion were drawn anew 18 times, on meshes with four times the
@@ -32,14 +32,14 @@ pub(super) fn worth_completing(detour: f64) -> f64 {
     1.5 * detour + 0.5
 }
 
-/// Lowers the sum of the detours of a drawing by twists, each the first that lowers it; ends where none does.
+/// Lowers the sum of the detours of a drawing by twists, each the first that lowers it; ends where none does, or after `most` drawings.
 ///
 /// # Errors
 /// [`Cancelled`].
-pub(super) fn straightest(start: Drawing, planner: &mut Planner<'_>) -> Result<Drawing, Cancelled> {
+pub(super) fn straightest(start: Drawing, most: usize, planner: &mut Planner<'_>) -> Result<Drawing, Cancelled> {
     let mut best = start;
     let mut detour = best.detour(planner.distances);
-    let mut left = MOST_DRAWINGS;
+    let mut left = most;
     planner.most_detour = worth_completing(detour);
     // Completing the twists of a descent on the 34 test pairs takes a quarter of this at most, mostly a twentieth; from a wound start it
     // may take twenty times as much.
@@ -126,7 +126,7 @@ mod tests {
             let Ok(start) = draw(&ground, variant, &mut Silent) else { continue };
             let begun = start.detour(&distances);
             let mut silent = Silent;
-            let ended = straightest(start, &mut Planner::new(&distances, 1.0, &mut silent)).unwrap();
+            let ended = straightest(start, MOST_DRAWINGS, &mut Planner::new(&distances, 1.0, &mut silent)).unwrap();
             assert_eq!(ended.ends.len(), 3 * landmarks.len() - 6);
             assert!(ended.detour(&distances) <= begun);
             gained += usize::from(ended.detour(&distances) < begun);

@@ -4,6 +4,7 @@
 //! little about which of several ways round a limb is the right one.
 
 use super::candidates::{Candidate, Candidates};
+use super::descent::MOST_DRAWINGS;
 use super::error::LayoutError;
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
 
@@ -12,6 +13,8 @@ use crate::monitor::{Cancelled, Monitor, Portion, Step};
 pub struct SearchOptions {
     /// Layouts from different orders of drawing that are judged, at most.
     pub candidates: usize,
+    /// Drawings of one descent from a start to straighter layouts, at most; 0 for none.
+    pub descent: usize,
     /// A layout with at most this detour ([`super::LayoutReport::detour`]) and at most `clear_mean_log` is clear: no other order
     /// is judged, and of its twists only the ambiguous ones.
     pub clear_detour: f64,
@@ -35,6 +38,7 @@ impl Default for SearchOptions {
             // The counts bound the time of a run, since each layout costs a coarse map. All of them were chosen by hand;
             // `cargo xtask survey classes` compares the class that is found with all its twists.
             candidates: 8,
+            descent: MOST_DRAWINGS,
             clear_detour: 0.1,
             clear_mean_log: 0.14,
             patience: 4,

@@ -67,7 +67,7 @@ extern "C" {
 }
 
 /// The least time between two messages of one stage, in milliseconds: nobody can see more of them.
-const MESSAGE_INTERVAL: f64 = 33.0;
+const MESSAGE_INTERVAL: f64 = 500.0;
 
 /// The least time between two questions, in milliseconds.
 const QUESTION_INTERVAL: f64 = 100.0;
