@@ -58,7 +58,7 @@ pub fn choose_class<'a>(
     let landmarks = coarse_landmarks(levels);
     let meshes = [&levels[0].coarse.mesh, &levels[1].coarse.mesh];
     let candidates = Candidates::new(meshes, &landmarks, &mut Portion::new(monitor, 0.0, 0.0))?;
-    let mut candidates = candidates.with_descent(options.search.descent);
+    let mut candidates = candidates.with_descent_patience(options.search.descent_patience);
     let mut finalists = Finalists {
         levels,
         options: options.multilevel,

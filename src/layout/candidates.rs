@@ -54,8 +54,8 @@ pub struct Candidates<'a> {
     landmarks: &'a Landmarks,
     empty: Drawing,
     distances: LandmarkDistances,
-    /// Drawings of one descent, at most.
-    descent: usize,
+    /// Twists of one drawing that a descent tries, at most.
+    descent_patience: usize,
     /// Number of batches of starts that were drawn.
     batches: usize,
     /// The least detour of the drawings, without layouts that turned out to have no map.
@@ -90,7 +90,7 @@ impl<'a> Candidates<'a> {
             landmarks,
             empty,
             distances,
-            descent: descent::MOST_DRAWINGS,
+            descent_patience: descent::MOST_DRAWINGS,
             batches: 0,
             least: f64::INFINITY,
             ready: Vec::new(),
@@ -99,9 +99,10 @@ impl<'a> Candidates<'a> {
         })
     }
 
-    /// The same with at most this many drawings of one descent; starts are left as they are drawn where that is 0.
-    pub fn with_descent(self, descent: usize) -> Self {
-        Self { descent, ..self }
+    /// The same with descents that try at most this many twists of one drawing.
+    #[must_use]
+    pub fn with_descent_patience(self, descent_patience: usize) -> Self {
+        Self { descent_patience, ..self }
     }
 
     /// The straightest layout of a new class that was drawn and not given yet; `None` when all starts were drawn. Once a result is
@@ -141,11 +142,11 @@ impl<'a> Candidates<'a> {
         let detour = |drawing: &Drawing| drawing.detour(&self.distances);
         let straightest = starts.iter().min_by(|a, b| detour(a).total_cmp(&detour(b)));
         let ended = match straightest {
-            Some(start) if self.descent > 0 => {
+            Some(start) => {
                 let mut planner = Planner::new(&self.distances, 1.0, monitor);
-                Some(descent::straightest(start.clone(), self.descent, &mut planner)?)
+                Some(descent::straightest(start.clone(), self.descent_patience, &mut planner)?)
             }
-            _ => None,
+            None => None,
         };
         for drawing in ended.into_iter().chain(starts) {
             monitor.step(Step::default())?;

@@ -32,20 +32,26 @@ pub(super) fn worth_completing(detour: f64) -> f64 {
     1.5 * detour + 0.5
 }
 
-/// Lowers the sum of the detours of a drawing by twists, each the first that lowers it; ends where none does, or after `most` drawings.
+/// Lowers the sum of the detours of a drawing by twists, each the first that lowers it; ends where none of the first
+/// `patience` does.
 ///
 /// # Errors
 /// [`Cancelled`].
-pub(super) fn straightest(start: Drawing, most: usize, planner: &mut Planner<'_>) -> Result<Drawing, Cancelled> {
+pub(super) fn straightest(
+    start: Drawing,
+    patience: usize,
+    planner: &mut Planner<'_>,
+) -> Result<Drawing, Cancelled> {
     let mut best = start;
     let mut detour = best.detour(planner.distances);
-    let mut left = most;
+    let mut left = MOST_DRAWINGS;
     planner.most_detour = worth_completing(detour);
     // Completing the twists of a descent on the 34 test pairs takes a quarter of this at most, mostly a twentieth; from a wound start it
     // may take twenty times as much.
     planner.begin_together();
     while left > 0 && detour > LEAST_GAIN && !planner.wants_result() {
-        let twists = or_stop(twists::plausible(&best, planner, LARGEST_RATIO))?.unwrap_or_default();
+        let mut twists = or_stop(twists::plausible(&best, planner, LARGEST_RATIO))?.unwrap_or_default();
+        twists.truncate(patience);
         let Some((less, next)) = first_gain(&best, &twists, detour - LEAST_GAIN, &mut left, planner)? else {
             break;
         };
@@ -126,7 +132,8 @@ mod tests {
             let Ok(start) = draw(&ground, variant, &mut Silent) else { continue };
             let begun = start.detour(&distances);
             let mut silent = Silent;
-            let ended = straightest(start, MOST_DRAWINGS, &mut Planner::new(&distances, 1.0, &mut silent)).unwrap();
+            let ended =
+                straightest(start, MOST_DRAWINGS, &mut Planner::new(&distances, 1.0, &mut silent)).unwrap();
             assert_eq!(ended.ends.len(), 3 * landmarks.len() - 6);
             assert!(ended.detour(&distances) <= begun);
             gained += usize::from(ended.detour(&distances) < begun);

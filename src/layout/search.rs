@@ -13,8 +13,8 @@ use crate::monitor::{Cancelled, Monitor, Portion, Step};
 pub struct SearchOptions {
     /// Layouts from different orders of drawing that are judged, at most.
     pub candidates: usize,
-    /// Drawings of one descent from a start to straighter layouts, at most; 0 for none.
-    pub descent: usize,
+    /// Twists of one drawing that a descent to straighter ones tries, at most, the most promising first.
+    pub descent_patience: usize,
     /// A layout with at most this detour ([`super::LayoutReport::detour`]) and at most `clear_mean_log` is clear: no other order
     /// is judged, and of its twists only the ambiguous ones.
     pub clear_detour: f64,
@@ -38,7 +38,7 @@ impl Default for SearchOptions {
             // The counts bound the time of a run, since each layout costs a coarse map. All of them were chosen by hand;
             // `cargo xtask survey classes` compares the class that is found with all its twists.
             candidates: 8,
-            descent: MOST_DRAWINGS,
+            descent_patience: MOST_DRAWINGS,
             clear_detour: 0.1,
             clear_mean_log: 0.14,
             patience: 4,

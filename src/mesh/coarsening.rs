@@ -38,6 +38,7 @@ pub fn coarsen(
         version: ti_vec![0; positions.len()],
         queue: MinQueue::default(),
         strictness: Strictness::Shape,
+        collapses: Vec::new(),
     };
     // A collapse that one round refuses may be possible after others: three rounds keep the shapes of triangles, then three do not.
     // Chosen by hand.
@@ -110,6 +111,8 @@ struct Coarsening<'a, M> {
     version: TiVec<VertexId, u32>,
     queue: CollapseQueue,
     strictness: Strictness,
+    /// The collapses of one vertex with their costs, kept for its memory.
+    collapses: Vec<(f64, HalfedgeId)>,
 }
 
 impl<M: Fn(&CollapsibleMesh, HalfedgeId) -> bool> Coarsening<'_, M> {
@@ -155,17 +158,18 @@ impl<M: Fn(&CollapsibleMesh, HalfedgeId) -> bool> Coarsening<'_, M> {
         Ok(())
     }
 
+    /// Queues the cheapest collapse of a vertex that is allowed. A cost is known sooner than whether a collapse is allowed, and the cheapest
+    /// mostly is.
     fn push_best(&mut self, v: VertexId) {
-        let mut best: Option<(f64, HalfedgeId)> = None;
-        for h in self.mesh.star(v) {
-            let cost = self.cost(h);
-            if best.is_none_or(|(least, _)| cost < least) && self.allowed(h) {
-                best = Some((cost, h));
-            }
-        }
-        if let Some((cost, halfedge)) = best {
+        let mut collapses = std::mem::take(&mut self.collapses);
+        collapses.clear();
+        collapses.extend(self.mesh.star(v).map(|h| (self.cost(h), h)));
+        // A stable sort: of equal costs the first in the star comes first.
+        collapses.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some(&(cost, halfedge)) = collapses.iter().find(|(_, h)| self.allowed(*h)) {
             self.queue.push(cost, (v, self.version[v]), halfedge);
         }
+        self.collapses = collapses;
     }
 
     fn cost(&self, h: HalfedgeId) -> f64 {
