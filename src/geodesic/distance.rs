@@ -12,13 +12,13 @@ pub fn distances(mesh: &SurfaceMesh, seeds: &[VertexId]) -> TiVec<VertexId, f64>
 /// The distances up to a radius (mesh's unit); a vertex beyond it has some distance above the radius, or an infinite one.
 pub fn distances_within(mesh: &SurfaceMesh, seeds: &[VertexId], radius: f64) -> TiVec<VertexId, f64> {
     let mut distance = ti_vec![f64::INFINITY; mesh.vertex_count()];
-    Front::new(mesh, seeds, &mut distance).advance(radius);
+    Front::new(mesh, |h| mesh.length(h), seeds, &mut distance).advance(radius);
     distance
 }
 
 /// Adds seeds to distances that this module has found on the same mesh: they fall to the distances to the nearest of all seeds.
 pub fn shorten(mesh: &SurfaceMesh, seeds: &[VertexId], distance: &mut TiVec<VertexId, f64>) {
-    Front::new(mesh, seeds, distance).advance(f64::INFINITY);
+    Front::new(mesh, |h| mesh.length(h), seeds, distance).advance(f64::INFINITY);
 }
 
 #[cfg(test)]

@@ -22,8 +22,10 @@ const SHORT: f64 = 1e-5;
 const ROUNDING: f64 = 1e-9;
 
 /// The distances of a mesh while they are computed, with the queue of the vertices whose distances may still fall.
-pub(super) struct Front<'a> {
+pub(super) struct Front<'a, L> {
     mesh: &'a SurfaceMesh,
+    /// The length of each halfedge.
+    length: L,
     /// For each vertex its distance, where that is at most `here` (then the vertex is settled), or else the least offer so far or the
     /// distance to the seeds of an earlier front.
     distance: &'a mut TiVec<VertexId, f64>,
@@ -49,14 +51,15 @@ struct Unfolded {
     bound: f64,
 }
 
-impl<'a> Front<'a> {
+impl<'a, L: Fn(HalfedgeId) -> f64> Front<'a, L> {
     /// A front that starts from seeds where they are not seeds already.
     pub(super) fn new(
         mesh: &'a SurfaceMesh,
+        length: L,
         seeds: &[VertexId],
         distance: &'a mut TiVec<VertexId, f64>,
     ) -> Self {
-        let mut front = Self { mesh, distance, queue: MinQueue::default(), here: 0.0 };
+        let mut front = Self { mesh, length, distance, queue: MinQueue::default(), here: 0.0 };
         seeds.iter().for_each(|&v| front.offer(v, 0.0));
         front
     }
@@ -96,7 +99,7 @@ impl<'a> Front<'a> {
     fn settle(&mut self, v: VertexId) {
         let mesh = self.mesh;
         for h in mesh.star(v) {
-            self.offer(mesh.head(h), self.here + mesh.length(h));
+            self.offer(mesh.head(h), self.here + (self.length)(h));
         }
         for h in mesh.star(v) {
             if self.is_settled(mesh.head(h)) {
@@ -113,7 +116,7 @@ impl<'a> Front<'a> {
             return;
         }
         let [at_a, at_b] = [mesh.tail(h), mesh.head(h)].map(|v| self.distance[v]);
-        let length = mesh.length(h);
+        let length = (self.length)(h);
         let Some(source) = source_below(length, [at_a, at_b]) else { return };
         let edge = Edge { beyond: h, a: DVec2::ZERO, b: DVec2::new(length, 0.0) };
         let window = Window { source, left: edge.a, right: edge.b };
@@ -128,7 +131,7 @@ impl<'a> Front<'a> {
         if self.is_settled(corner) {
             return;
         }
-        let [ab, bc, ca] = [h, h.next(), h.prev()].map(|x| mesh.length(x));
+        let [ab, bc, ca] = [h, h.next(), h.prev()].map(|x| (self.length)(x));
         let place = apex([edge.a, edge.b], [ab, bc, ca]);
         let through = place.distance(window.source);
         if through.is_nan() || (faces > FREE_FACES && through >= bound) {
@@ -179,7 +182,7 @@ mod tests {
         {
             for seed in [0, 3, mesh.vertex_count() as u32 - 1].map(VertexId) {
                 let mut distance = ti_vec![f64::INFINITY; mesh.vertex_count()];
-                let mut front = Front::new(&mesh, &[seed, seed], &mut distance);
+                let mut front = Front::new(&mesh, |h| mesh.length(h), &[seed, seed], &mut distance);
                 assert_eq!(front.advance(f64::INFINITY), mesh.vertex_count());
                 let last = front.here;
                 assert_eq!(last, distance.iter().copied().fold(0.0, f64::max));
@@ -191,9 +194,10 @@ mod tests {
     fn seeds_that_are_seeds_already_change_nothing() {
         let ball = icosphere(3);
         let mut distance = ti_vec![f64::INFINITY; ball.vertex_count()];
-        Front::new(&ball, &[VertexId(9)], &mut distance).advance(f64::INFINITY);
+        let length = |h| ball.length(h);
+        Front::new(&ball, length, &[VertexId(9)], &mut distance).advance(f64::INFINITY);
         let before = distance.clone();
-        assert_eq!(Front::new(&ball, &[VertexId(9)], &mut distance).advance(f64::INFINITY), 0);
+        assert_eq!(Front::new(&ball, length, &[VertexId(9)], &mut distance).advance(f64::INFINITY), 0);
         assert_eq!(before, distance);
     }
 }

@@ -11,6 +11,8 @@
 
 mod distance;
 mod front;
+mod many;
 mod unfolding;
 
 pub use distance::{distances, distances_within, shorten};
+pub use many::ManyDistances;

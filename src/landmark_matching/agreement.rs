@@ -16,15 +16,14 @@ pub(super) fn ranks(
     field: &TiSlice<VertexId, f64>,
     marks: &[VertexId],
 ) -> Vec<Rank> {
-    let parents = parents(mesh, root, field);
     let mut reached: TiVec<VertexId, Rank> = ti_vec![Rank::MAX; mesh.vertex_count()];
     // Only paths to marks count.
-    let mut is_on_path: TiVec<VertexId, bool> = ti_vec![false; mesh.vertex_count()];
+    let mut homeward: TiVec<VertexId, Option<HalfedgeId>> = ti_vec![None; mesh.vertex_count()];
     for &mark in marks {
         let mut v = mark;
-        while v != root && !is_on_path[v] {
-            is_on_path[v] = true;
-            let Some(h) = parents[v] else { break };
+        while v != root && homeward[v].is_none() {
+            let Some(h) = towards_root(mesh, field, v) else { break };
+            homeward[v] = Some(h);
             v = mesh.head(h);
         }
     }
@@ -39,7 +38,7 @@ pub(super) fn ranks(
         for k in 0..star.len() {
             let h = star[(begin + k) % star.len()];
             let child = mesh.head(h);
-            if is_on_path[child] && parents[child] == Some(mesh.twin(h)) {
+            if homeward[child] == Some(mesh.twin(h)) {
                 stack.push((child, Some(mesh.twin(h))));
             }
         }
@@ -47,19 +46,12 @@ pub(super) fn ranks(
     marks.iter().map(|&mark| reached[mark]).collect()
 }
 
-/// The halfedge of each vertex towards the root: it leads to the neighbour through which the way is shortest, among the neighbours that are
-/// nearer to the root.
-fn parents(
-    mesh: &SurfaceMesh,
-    root: VertexId,
-    field: &TiSlice<VertexId, f64>,
-) -> TiVec<VertexId, Option<HalfedgeId>> {
-    let parent = |v: VertexId| {
-        let nearer = mesh.star(v).filter(|&h| v != root && field[mesh.head(h)] < field[v]);
-        let way = |h: HalfedgeId| field[mesh.head(h)] + mesh.length(h);
-        nearer.min_by(|a, b| way(*a).total_cmp(&way(*b)))
-    };
-    mesh.vertices().map(parent).collect()
+/// The halfedge from a vertex to the neighbour through which the way to the root is shortest, among the neighbours that are nearer to the
+/// root; `None` where no neighbour is.
+fn towards_root(mesh: &SurfaceMesh, field: &TiSlice<VertexId, f64>, v: VertexId) -> Option<HalfedgeId> {
+    let nearer = mesh.star(v).filter(|&h| field[mesh.head(h)] < field[v]);
+    let way = |h: HalfedgeId| field[mesh.head(h)] + mesh.length(h);
+    nearer.min_by(|a, b| way(*a).total_cmp(&way(*b)))
 }
 
 /// Whether three different places come in counter-clockwise order.

@@ -6,7 +6,7 @@ use super::options::MatchOptions;
 use super::pair::PairOrigin;
 use super::persistence::peaks;
 use super::relief::relief;
-use crate::geodesic::distances;
+use crate::geodesic::{ManyDistances, distances};
 use crate::math::scalar::ln;
 use crate::mesh::coarsening::Level;
 use crate::mesh::mirror::mirrored;
@@ -159,11 +159,14 @@ impl Shape {
 
     fn order(&mut self) {
         let vertices: Vec<VertexId> = self.marks.iter().map(|mark| mark.vertex).collect();
-        let images = inversions(&self.level.mesh);
         for mark in &mut self.marks {
             mark.ranks.push(ranks(&self.level.mesh, mark.vertex, &mark.field, &vertices));
-            let on_image = |image| ranks(image, mark.vertex, &distances(image, &[mark.vertex]), &vertices);
-            mark.ranks.extend(images.iter().map(on_image));
+        }
+        for image in &inversions(&self.level.mesh) {
+            let distances = ManyDistances::on(image);
+            for mark in &mut self.marks {
+                mark.ranks.push(ranks(image, mark.vertex, &distances.to(mark.vertex), &vertices));
+            }
         }
     }
 
@@ -265,11 +268,12 @@ fn remoteness(
     monitor: &mut dyn Monitor,
 ) -> Result<TiVec<VertexId, f64>, Cancelled> {
     let mut nearest: TiVec<VertexId, (f64, usize)> = ti_vec![(f64::INFINITY, 0); mesh.vertex_count()];
+    let distances = ManyDistances::on(mesh);
     let mut fields = Vec::with_capacity(samples);
     let mut sample = VertexId(0);
     for k in 0..samples.min(mesh.vertex_count()) {
         monitor.step(Step { fraction: k as f64 / samples as f64, residual: None })?;
-        let field = distances(mesh, &[sample]);
+        let field = distances.to(sample);
         for (near, &d) in nearest.iter_mut().zip(&field) {
             if d < near.0 {
                 *near = (d, k);

@@ -7,7 +7,7 @@
 use super::candidate::Candidate;
 use super::input::MatchInput;
 use super::pair::PairOrigin;
-use crate::geodesic::distances;
+use crate::geodesic::ManyDistances;
 use crate::landmarks::MeshSide;
 use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, VertexId};
@@ -73,10 +73,11 @@ impl<'a> Fine<'a> {
     ) -> Result<Self, Cancelled> {
         let level =
             Level::coarse(mesh, ends, VERTICES.max(2 * ends.len()), &mut Portion::new(monitor, 0.0, 0.0))?;
+        let distances = ManyDistances::on(&level.mesh);
         let mut fields = Vec::with_capacity(ends.len());
         for v in level.numbers(ends) {
             monitor.step(Step { fraction: fields.len() as f64 / ends.len() as f64, residual: None })?;
-            fields.push(distances(&level.mesh, &[v]));
+            fields.push(distances.to(v));
         }
         let farthest = FARTHEST * level.mesh.area().sqrt();
         Ok(Self { level, ends, fields, may_mark, farthest })

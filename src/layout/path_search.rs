@@ -149,6 +149,9 @@ impl PathSearch {
             }
             let place = position(mesh, node);
             for_each_link(mesh, node, |next, touches_midpoint| {
+                if self.is_nearer(next, here) {
+                    return;
+                }
                 let factor = if touches_midpoint { query.midpoint_penalty } else { 1.0 };
                 let through = here + factor * place.distance(position(mesh, next));
                 self.relax(mesh, query, [next, node], through);
@@ -167,6 +170,11 @@ impl PathSearch {
         self.goal_step.resize(nodes, EndStep::Along(VertexId(NONE)));
         self.now += 1;
         self.queue.clear();
+    }
+
+    /// Whether a node was reached by a way no longer than `here`, so that no way from there is shorter.
+    fn is_nearer(&self, node: u32, here: f64) -> bool {
+        self.stamp[node as usize] == self.now && self.distance[node as usize] <= here
     }
 
     fn relax(&mut self, mesh: &RefinableMesh, query: &Query<'_>, [node, before]: [u32; 2], distance: f64) {
