@@ -17,6 +17,12 @@ export class Runner {
 
   constructor(store: Store) {
     this.#store = store;
+    store.subscribe(({ matching }) => {
+      // A search has the core optimised itself, and the processor to itself.
+      if (matching?.kind === 'searching') {
+        this.#endWarmUp();
+      }
+    });
   }
 
   /** The core, loaded or still loading; `null` until it is known where it comes from. */
@@ -29,10 +35,11 @@ export class Runner {
     this.#core = core;
   }
 
-  /** Has the browser optimise the core by making the map of a demo, given by its id; a run that begins ends that. */
+  /** Has the browser optimise the core by making the map of a demo, given by its id; a run or a search that begins ends that. */
   warmUp(demo: string): void {
     const { core } = this;
-    if (core !== null && this.#run === null) {
+    const isSearching = this.#store.state.matching?.kind === 'searching';
+    if (core !== null && this.#run === null && !isSearching) {
       this.#endWarmUp();
       this.#endWarmUp = warmUp({ module: core, demo });
     }
