@@ -145,10 +145,10 @@ impl Default for VerdictLimits {
         // Set on the pairs among four animals of SHREC07, both directions. Ten of them have a score without remoteness of up to 0.519, the two
         // of 383-387, one of which is wrong, 0.637 and 0.651: the limit is a little nearer to the right ones, since a wrong map that is called
         // sure is worse than a question. With two known landmarks given all eleven right ones have less than 0.62 and the wrong one 0.640. The
-        // margin was chosen by hand with an earlier score: right ones lead by 0.089 and more, wrong ones by 0.10 and 0.29. Hands, whose fingers have no left and right, have scores up to 0.39, a man on a toy
-        // with large ears 0.88; right maps of other bodies have scores up to 0.91, those of bodies that have no counterpart from 1.17 on.
-        // Orders agree to 0.7 and more on right ones. Mirrored hands have a mean log density of 0.4 to 0.5 times the one, men in other poses
-        // of 0.88.
+        // margin was chosen by hand with an earlier score: right ones lead by 0.089 and more, wrong ones by 0.10 and 0.29. Hands, whose fingers
+        // have no left and right, have scores up to 0.39, a man on a toy with large ears 0.88; right maps of other bodies have scores up to
+        // 0.91, those of bodies that have no counterpart from 1.17 on. Orders agree to 0.7 and more on right ones. Mirrored hands have a mean
+        // log density of 0.4 to 0.5 times the one, men in other poses of 0.88.
         Self {
             sure_score: 0.57,
             sure_score_without_sides: 0.5,
