@@ -123,8 +123,9 @@ pub struct VerdictLimits {
     pub sure_score: f64,
     /// Score from which on one that does not take left and right of one body to those of the other is doubtful.
     pub sure_score_without_sides: f64,
-    /// The amount by which each given pair raises the score that is good enough: it settles which limb is which, but not how the map fits.
-    pub per_given: f64,
+    /// The amount by which given pairs, however many, raise the score that is good enough: they settle which limb is which, but not how the
+    /// map fits.
+    pub with_given: f64,
     /// Score from which on nothing fits.
     pub unknown_score: f64,
     /// Share of the orders that agree, 0 to 1, below which the best candidate is doubtful.
@@ -144,15 +145,15 @@ impl Default for VerdictLimits {
     fn default() -> Self {
         // Set on the pairs among four animals of SHREC07, both directions. Ten of them have a score without remoteness of up to 0.519, the two
         // of 383-387, one of which is wrong, 0.637 and 0.651: the limit is a little nearer to the right ones, since a wrong map that is called
-        // sure is worse than a question. With two known landmarks given all eleven right ones have less than 0.62 and the wrong one 0.640. The
-        // margin was chosen by hand with an earlier score: right ones lead by 0.089 and more, wrong ones by 0.10 and 0.29. Hands, whose fingers
-        // have no left and right, have scores up to 0.39, a man on a toy with large ears 0.88; right maps of other bodies have scores up to
-        // 0.91, those of bodies that have no counterpart from 1.17 on. Orders agree to 0.7 and more on right ones. Mirrored hands have a mean
-        // log density of 0.4 to 0.5 times the one, men in other poses of 0.88.
+        // sure is worse than a question. With one or two known landmarks given, or a question answered, right ones have up to 0.633 and the
+        // wrong one 0.639 to 0.643. The margin was chosen by hand with an earlier score: right ones lead by 0.089 and more, wrong ones by 0.10
+        // and 0.29. Hands, whose fingers have no left and right, have scores up to 0.39, a man on a toy with large ears 0.88; right maps of
+        // other bodies have scores up to 0.91, those of bodies that have no counterpart from 1.17 on. Orders agree to 0.7 and more on right
+        // ones. Mirrored hands have a mean log density of 0.4 to 0.5 times the one, men in other poses of 0.88.
         Self {
             sure_score: 0.57,
             sure_score_without_sides: 0.5,
-            per_given: 0.025,
+            with_given: 0.065,
             unknown_score: 1.05,
             agreement: 0.55,
             margin: 0.085,

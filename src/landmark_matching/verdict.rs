@@ -111,8 +111,8 @@ pub(super) fn verdict(
     let rival = number.map(|number| &candidates[number]);
     let near = rival.is_some_and(|rival| rival.score < best.score + limits.margin);
     let clear = best.pairs.iter().filter(|pair| pair.origin != PairOrigin::Between).count();
-    // A given pair settles a doubt that came of the score alone.
-    let settled = limits.per_given * input.given.len() as f64;
+    // A given pair settles a doubt that came of the score alone. More of them say no more about the fit.
+    let settled = if input.given.is_empty() { 0.0 } else { limits.with_given };
     let scores_well = if best.assignment.keeps_sides {
         best.score_without_remoteness() < limits.sure_score + settled
     } else {
@@ -220,9 +220,9 @@ mod tests {
         };
         let verdict = |scores: [f64; 2], given: &[[VertexId; 2]]| verdict_with(None, scores, given);
         assert_eq!(verdict([0.40, 1.10], &[]), "sure");
-        assert_eq!(verdict([0.58, 1.10], &[]), "doubtful");
-        assert_eq!(verdict([0.58, 1.10], &given), "sure");
-        assert_eq!(verdict([0.62, 1.10], &given), "doubtful");
+        assert_eq!(verdict([0.62, 1.10], &[]), "doubtful");
+        assert_eq!(verdict([0.62, 1.10], &given), "sure");
+        assert_eq!(verdict([0.65, 1.10], &given), "doubtful");
         assert_eq!(verdict([0.40, 0.45], &given), "doubtful");
         assert_eq!(verdict([1.10, 1.90], &given), "unknown");
         // The mirror image of a body that is nearly symmetric fits as well; in another pose it may fit better, as distorted.
