@@ -4,7 +4,7 @@ use super::front::Front;
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 use typed_index_collections::{TiVec, ti_vec};
 
-/// A mesh with the lengths of its halfedges: a front asks for each some thirty times.
+/// A mesh with the lengths of its halfedges: a front asks for each many times.
 pub struct ManyDistances<'a> {
     mesh: &'a SurfaceMesh,
     lengths: TiVec<HalfedgeId, f64>,

@@ -4,16 +4,8 @@ import type { State } from '../store/state.ts';
 
 export function mark(state: State): void {
   const { dataset } = document.body;
-  const attributes = {
-    ready: String(state.ready),
-    state: state.job.kind,
-    pairs: String(wholePairs(state).length),
-    demo: state.demo?.id ?? '',
-  };
-  for (const [name, value] of Object.entries(attributes)) {
-    // The styles of the whole page are computed anew when an attribute is written, even where it stays the same.
-    if (dataset[name] !== value) {
-      dataset[name] = value;
-    }
-  }
+  dataset['ready'] = String(state.ready);
+  dataset['state'] = state.job.kind;
+  dataset['pairs'] = String(wholePairs(state).length);
+  dataset['demo'] = state.demo?.id ?? '';
 }

@@ -17,9 +17,9 @@ export class Runner {
 
   constructor(store: Store) {
     this.#store = store;
-    store.subscribe(({ matching }) => {
+    store.subscribe(({ matching }, previous) => {
       // A search has the core optimised itself, and the processor to itself.
-      if (matching?.kind === 'searching') {
+      if (matching?.kind === 'searching' && previous.matching?.kind !== 'searching') {
         this.#endWarmUp();
       }
     });
