@@ -5,6 +5,7 @@ mod distance_guess;
 mod error;
 mod landmarked_mesh;
 mod layout_points;
+mod limb_ends;
 mod mesh_with_coarse;
 pub mod multilevel;
 mod options;

@@ -487,11 +487,13 @@ impl LevelImages {
     #[cfg(test)]
     pub(super) fn of_itself(level: &Level) -> Self {
         let at = |v| SurfacePoint::at_vertex(&level.mesh, v);
-        Self {
-            levels: [level.clone(), level.clone()],
-            weights: [None, None],
-            target_from_source: level.mesh.vertices().map(at).collect(),
-        }
+        Self::of_skin([level.clone(), level.clone()], level.mesh.vertices().map(at).collect())
+    }
+
+    /// Two levels, all of them skin.
+    #[cfg(test)]
+    pub(super) fn of_skin(levels: [Level; 2], target_from_source: TiVec<VertexId, SurfacePoint>) -> Self {
+        Self { levels, weights: [None, None], target_from_source }
     }
 
     /// The same levels with other images.

@@ -1,4 +1,6 @@
-//! Cones that the program adds where the user gave few landmarks.
+//! Cones that the program adds: at ends of limbs without a landmark, and where the user gave few landmarks.
+//!
+//! Ends of limbs that both bodies have become cones where that lowers the mean log density ([`limb_ends`]).
 //!
 //! A cone surface with few cones is a poor image of a body with many limbs, and the descent of a map over it ends in a poor
 //! minimum. So points are added and carried to the target by the present map; the map is solved again with all as cones.
@@ -8,10 +10,11 @@ use super::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use super::distance_guess::{self, Guess};
 use super::error::CoarseMapError;
 use super::landmarked_mesh::LandmarkedMesh;
+use super::limb_ends;
 use super::mesh_with_coarse::{self, MeshWithCoarse};
 use super::multilevel::{CoarseMap, LevelImages, solve_fine};
 use super::options::MultilevelOptions;
-use super::own_points::{PointChoice, pairs, with};
+use super::own_points::{OwnPair, PointChoice, pairs, with};
 use crate::layout::SearchOptions;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion};
@@ -23,13 +26,15 @@ use typed_index_collections::TiVec;
 /// Options of the program's own cones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OwnConeOptions {
-    /// Points that are added; 0 for none.
+    /// Points that are added in each round; 0 for none, and for no ends of limbs either.
     pub count: usize,
-    /// Points are added only where there are at most this many landmarks.
+    /// Ends of limbs that are looked at on each mesh, at most, the most remote; 0 for none.
+    pub ends: usize,
+    /// Other points than ends of limbs are added only where there are at most this many landmarks.
     pub most_landmarks: usize,
     /// Points are added only where the mean log density of the coarse map is at least this; 0 for an isometry.
     pub least_mean_log: f64,
-    /// Rounds, each with another set of points, at most.
+    /// Rounds, each with another set of points, at most, beside those with ends of limbs.
     pub rounds: usize,
     /// Stops after this many rounds without a gain.
     pub patience: usize,
@@ -45,6 +50,7 @@ impl Default for OwnConeOptions {
         Self {
             // With 12 of 33 landmarks that makes about as many cones as all 33. Rounds and gains were chosen by hand.
             count: 20,
+            ends: 12,
             most_landmarks: 16,
             // The mean log density of a map of energy 4.01.
             least_mean_log: 0.0025,
@@ -62,7 +68,9 @@ pub struct Rounds<T>(Vec<OnceCell<[T; 2]>>);
 impl<T> Rounds<T> {
     /// Empty storage for all rounds.
     pub fn new(options: &OwnConeOptions) -> Self {
-        Self((0..options.rounds).map(|_| OnceCell::new()).collect())
+        // Each round with ends of limbs has half as many as the one before.
+        let with_ends = usize::BITS - options.ends.leading_zeros();
+        Self((0..options.rounds + with_ends as usize).map(|_| OnceCell::new()).collect())
     }
 }
 
@@ -94,7 +102,8 @@ pub struct OwnCones<'a> {
 }
 
 impl OwnCones<'_> {
-    fn mean_log(&self) -> f64 {
+    /// Mean log density of the coarse map.
+    pub fn mean_log(&self) -> f64 {
         self.map.mean_log
     }
 
@@ -145,9 +154,9 @@ pub struct Start<'a> {
 
 /// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
 ///
-/// The first rounds begin with images under the map and, for the case that it is of a wrong class, with images guessed from distances
-/// (`distance_guess`). Every further round takes fresh points at their images under the last map, unless that is much worse than the
-/// best one.
+/// First come ends of limbs without a landmark. Where there are few landmarks, rounds of points far from all others follow: these begin with
+/// images under the map and, for the case that it is of a wrong class, with images guessed from distances (`distance_guess`). Every further
+/// round takes fresh points at their images under the last map, unless that is much worse than the best one.
 ///
 /// # Errors
 /// Cancellation only.
@@ -159,46 +168,16 @@ pub fn add<'a>(
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones<'a>>, Cancelled> {
     let Start { full, map, .. } = start;
-    if own.count == 0 || full[0].landmarks.len() > own.most_landmarks || map.mean_log < own.least_mean_log {
+    if own.count == 0 || map.mean_log < own.least_mean_log {
         return Ok(None);
     }
-    let Some(mut images) = map.images() else { return Ok(None) };
+    let Some(images) = map.images() else { return Ok(None) };
     let mut adding = Adding { start, multilevel, own, cells: owners.cells(), before: Vec::new() };
-    if !adding.may_go_on(monitor) {
-        return Ok(None);
+    let with_ends = adding.at_limb_ends(&images, monitor)?;
+    if full[0].landmarks.len() > own.most_landmarks {
+        return Ok(with_ends);
     }
-    let mut best = adding.round(&images, |_| true, monitor)?.filter(|next| next.mean_log() < map.mean_log);
-    let least = best.as_ref().map_or(map.mean_log, OwnCones::mean_log);
-    if let Some(other) = adding.by_distances(&images, least, monitor)?
-        && other.mean_log() < least
-    {
-        best = Some(other);
-    }
-    if let Some(first) = &best {
-        monitor.preview(&first.map);
-        let Some(of_first) = first.map.images() else { return Ok(best) };
-        images = of_first;
-    }
-    let mut without_gain = usize::from(best.is_none());
-    while without_gain < own.patience && adding.may_go_on(monitor) {
-        without_gain += 1;
-        let Some(next) = adding.round(&images, |_| true, monitor)? else { continue };
-        let (reached, least) = (next.mean_log(), best.as_ref().map_or(map.mean_log, OwnCones::mean_log));
-        if reached >= USABLE * least {
-            continue;
-        }
-        let Some(next_images) = next.map.images() else { continue };
-        images = next_images;
-        if reached >= least {
-            continue;
-        }
-        if reached < (1.0 - own.least_gain) * least {
-            without_gain = 0;
-        }
-        monitor.preview(&next.map);
-        best = Some(next);
-    }
-    Ok(best)
+    adding.far_points(with_ends, images, monitor)
 }
 
 /// Rounds of own landmarks, one after the other.
@@ -214,6 +193,77 @@ struct Adding<'s, 'a> {
 impl<'a> Adding<'_, 'a> {
     fn may_go_on(&self, monitor: &mut dyn Monitor) -> bool {
         self.cells.len() > 0 && !monitor.wants_result()
+    }
+
+    /// A map with cones at ends of limbs without a landmark, where its mean log density is lower; first with all that fit, then with half of
+    /// them, those farthest from the landmarks.
+    fn at_limb_ends(
+        &mut self,
+        present: &LevelImages,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<OwnCones<'a>>, Cancelled> {
+        if !self.may_go_on(monitor) {
+            return Ok(None);
+        }
+        let looking = &mut Portion::new(monitor, 0.0, 0.0);
+        let mut ends = limb_ends::pairs(self.start.full, present, self.own.ends, looking)?;
+        let limit = (1.0 - self.own.least_gain) * self.start.map.mean_log;
+        while !ends.is_empty() && self.may_go_on(monitor) {
+            let next = self.with_pairs(&ends, monitor)?;
+            if let Some(next) = next.filter(|next| next.mean_log() < limit) {
+                monitor.preview(&next.map);
+                return Ok(Some(next));
+            }
+            ends.truncate(ends.len() / 2);
+        }
+        Ok(None)
+    }
+
+    /// The best of `found` and of the maps of rounds with points far from all others; `None` where none is better than the start.
+    fn far_points(
+        &mut self,
+        found: Option<OwnCones<'a>>,
+        mut images: LevelImages,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<OwnCones<'a>>, Cancelled> {
+        let start = self.start.map.mean_log;
+        let least = |best: &Option<OwnCones<'a>>| best.as_ref().map_or(start, OwnCones::mean_log);
+        while self.cells.len() > self.own.rounds {
+            self.cells.next();
+        }
+        if !self.may_go_on(monitor) {
+            return Ok(found);
+        }
+        // The class of the map with ends may be another one, and wrong: so this round begins without it.
+        let first = self.round(&images, |_| true, monitor)?;
+        let mut best = first.filter(|first| first.mean_log() < least(&found)).or(found);
+        let other = self.by_distances(&images, least(&best), monitor)?;
+        best = other.filter(|other| other.mean_log() < least(&best)).or(best);
+        if let Some(first) = &best {
+            monitor.preview(&first.map);
+            let Some(of_first) = first.map.images() else { return Ok(best) };
+            images = of_first;
+        }
+        let mut without_gain = usize::from(best.is_none());
+        while without_gain < self.own.patience && self.may_go_on(monitor) {
+            without_gain += 1;
+            let Some(next) = self.round(&images, |_| true, monitor)? else { continue };
+            let (reached, least) = (next.mean_log(), least(&best));
+            if reached >= USABLE * least {
+                continue;
+            }
+            let Some(next_images) = next.map.images() else { continue };
+            images = next_images;
+            if reached >= least {
+                continue;
+            }
+            if reached < (1.0 - self.own.least_gain) * least {
+                without_gain = 0;
+            }
+            monitor.preview(&next.map);
+            best = Some(next);
+        }
+        Ok(best)
     }
 
     /// A map that begins with own points at images guessed from distances. Those are not exact, so the first map is distorted too much; it
@@ -251,14 +301,25 @@ impl<'a> Adding<'_, 'a> {
         may: impl Fn(VertexId) -> bool,
         monitor: &mut dyn Monitor,
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
+        let placing = &mut Portion::new(monitor, 0.0, 0.0);
+        let choice = PointChoice { count: self.own.count, may: &may };
+        let pairs = pairs(self.start.full, images, &self.before, choice, placing)?;
+        self.with_pairs(&pairs, monitor)
+    }
+
+    /// A map with these own points; `None` where there are none, or no map.
+    fn with_pairs(
+        &mut self,
+        pairs: &[OwnPair],
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<OwnCones<'a>>, Cancelled> {
         let Start { inputs, full, vertices, .. } = self.start;
         let Self { multilevel, own, .. } = *self;
         let number = own.rounds - self.cells.len().min(own.rounds);
         let Some((full_cell, levels_cell)) = self.cells.next() else { return Ok(None) };
         let share = |done: f64| (number as f64 + done) / own.rounds as f64;
         let placing = &mut Portion::new(monitor, share(0.0), share(0.1));
-        let pairs = pairs(full, images, &self.before, PointChoice { count: own.count, may: &may }, placing)?;
-        let Some(with_own) = with(inputs, full, &pairs, placing)? else { return Ok(None) };
+        let Some(with_own) = with(inputs, full, pairs, placing)? else { return Ok(None) };
         self.before = pairs.iter().map(|pair| pair.source).collect();
         let with_own = full_cell.get_or_init(|| with_own);
         let coarsening = &mut Portion::new(monitor, share(0.1), share(0.1));

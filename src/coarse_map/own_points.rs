@@ -27,8 +27,8 @@ const SNAP: f64 = 0.15;
 pub(super) struct OwnPair {
     /// A vertex of the source with the user's landmarks.
     pub source: VertexId,
-    /// Its image on the target.
-    target: SurfacePoint,
+    /// Its image on the target with the user's landmarks.
+    pub target: SurfacePoint,
 }
 
 /// The own points that a round may take.

@@ -91,8 +91,8 @@ pub struct Choices {
     /// Which class of maps, where several are nearly as good.
     #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t))]
     pub class: ClassChoice,
-    /// Points that are added as cones of the program's own where there are few landmarks; 0 for none, the default number where it is not
-    /// given.
+    /// Points that are added as cones of the program's own where there are few landmarks, beside ends of limbs without a landmark; 0 for
+    /// none of both, the default number where it is not given.
     #[cfg_attr(feature = "cli", arg(long, value_name = "N"))]
     pub own_cones: Option<usize>,
     /// How holes that both meshes have are treated.

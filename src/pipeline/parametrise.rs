@@ -3,9 +3,9 @@
 use super::borders::{BordersReport, CountedCaps, counted_caps};
 use super::{Base, MapInput, PipelineError, PipelineOptions, Relaxation};
 use crate::base_domain;
-use crate::coarse_map::class_search::{Chosen, ClassSearchOptions, choose_class};
+use crate::coarse_map::class_search::{Chosen, ClassChoice, ClassSearchOptions, choose_class};
 use crate::coarse_map::multilevel::{CoarseMap, solve_coarse, solve_fine};
-use crate::coarse_map::own_cones::{self, Owners, Refined, Rounds, Start};
+use crate::coarse_map::own_cones::{self, OwnConeOptions, Owners, Refined, Rounds, Start};
 use crate::coarse_map::unrelaxed::{Unrelaxed, solve_unrelaxed};
 use crate::coarse_map::{
     LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse, coarse_landmarks, coarse_levels,
@@ -165,6 +165,9 @@ struct Solved {
     meshes: Option<[LandmarkedMesh; 2]>,
 }
 
+/// Progress of the search for the class before ends of limbs are looked at. Chosen by hand, for display only.
+const SEARCHED: f64 = 0.8;
+
 /// Solves an attempt, from its coarse levels to the full meshes.
 fn solve(
     input: MapInput<'_>,
@@ -176,7 +179,11 @@ fn solve(
     let Attempt { vertices, search, scale } = attempt;
     let coarsening = &mut Portion::new(monitor, 0.0, 0.0);
     let sides = coarse_levels(full, vertices, options.multilevel.rims, coarsening)?;
-    let Coarse { layout, search, map } = coarse(input, &sides, options, &search, monitor)?;
+    // Cones at ends of limbs are part of the search where there are too many landmarks for a stage of own cones.
+    let has_own = has_own_cones(input.landmarks.len(), options);
+    let searched = if has_own { 1.0 } else { SEARCHED };
+    let searching = &mut Portion::new(monitor, 0.0, searched);
+    let Coarse { layout, mut search, map } = coarse(input, &sides, options, &search, searching)?;
     if scale == Scale::ByArea
         && !monitor.wants_result()
         && let Some(factor) = map.better_scale()
@@ -192,13 +199,21 @@ fn solve(
             solve_unrelaxed(&sides, &layout, &options.multilevel, monitor)?;
         return Ok(Solved { layout, search, surface, embeddings, meshes: None });
     }
-    if has_own_cones(input.landmarks.len(), options) {
+    if has_own {
         monitor.enter(Stage::OwnCones);
     }
-    let (meshes, levels) = (Rounds::new(&options.own_cones), Rounds::new(&options.own_cones));
+    // A search with ends of limbs would go back to the best class.
+    let ends = if options.class == ClassChoice::Best { options.own_cones.ends } else { 0 };
+    let own_options = OwnConeOptions { ends, ..options.own_cones };
+    let (meshes, levels) = (Rounds::new(&own_options), Rounds::new(&own_options));
     let start = Start { inputs: [input.source, input.target], full, map: &map, vertices };
     let owners = Owners { meshes: &meshes, levels: &levels };
-    let own = own_cones::add(start, owners, &options.multilevel, &options.own_cones, monitor)?;
+    let adding = &mut Portion::new(monitor, if has_own { 0.0 } else { SEARCHED }, 1.0);
+    let own = own_cones::add(start, owners, &options.multilevel, &own_options, adding)?;
+    if let Some(own) = own.as_ref().filter(|_| !has_own) {
+        // The runner-up has no cones at ends of limbs.
+        search.rival = search.rival.map(|rival| rival * map.mean_log / own.mean_log());
+    }
     monitor.enter(Stage::Relaxation);
     if let Some(own) = own
         && let Some(refined) = own.refined(&options.multilevel, monitor)?

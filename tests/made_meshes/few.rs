@@ -2,10 +2,13 @@
 
 use crate::fixtures;
 use crate::theorems::{farthest_landmarks, maps_with_and_without_own_cones};
+use conemap::demo;
 use conemap::job::{Job, JobFiles, TargetImage};
 use conemap::landmark_exchange::GivenFile;
+use conemap::landmarks::Landmarks;
+use conemap::mesh::VertexId;
 use conemap::monitor::Silent;
-use conemap::pipeline::PipelineOptions;
+use conemap::pipeline::{MapInput, OwnConeOptions, PipelineOptions, run};
 
 #[test]
 #[ignore = "long: run by `cargo xtask test --all`"]
@@ -32,4 +35,31 @@ fn small_meshes_take_own_cones_in_several_rounds() {
     let report = job.run(&PipelineOptions::default(), &mut Silent).unwrap().report;
     assert!(report.own_landmarks > 0, "no own cone was taken");
     assert!(report.certificate.is_some_and(|c| c.bijective));
+}
+
+/// A horse and a cat with all landmarks of the demo but that at the tip of the tail.
+#[test]
+fn a_tail_without_a_landmark_goes_to_a_tail() {
+    let demo = demo::build("horse-cat").unwrap();
+    let tail = demo.labels.iter().position(|label| label == "tail tip").unwrap();
+    let [from, onto] = demo.landmarks[tail].map(VertexId);
+    let mut kept = demo.landmarks.clone();
+    kept.remove(tail);
+    let [source, target] = [&demo.source, &demo.target];
+    let landmarks = Landmarks::from_vertices(source, target, &kept).unwrap();
+    let usual = OwnConeOptions { most_landmarks: 4, ..OwnConeOptions::default() };
+    let results = [12, 0].map(|ends| {
+        let options =
+            PipelineOptions { own_cones: OwnConeOptions { ends, ..usual }, ..PipelineOptions::default() };
+        run(MapInput::new(source, target, &landmarks), &options, &mut Silent).unwrap()
+    });
+    let [with, without] = results.each_ref().map(|result| &result.report);
+    assert_eq!([with.own_landmarks, without.own_landmarks], [1, 0]);
+    assert!(with.certificate.as_ref().is_some_and(|c| c.bijective));
+    assert!(with.distortion.mean_log < 0.95 * without.distortion.mean_log);
+    let [off, off_without] = results.each_ref().map(|result| {
+        let image = result.target_from_source[from].unwrap().position(target);
+        image.distance(target.positions()[onto]) / target.area().sqrt()
+    });
+    assert!(off < 0.06 && off < off_without, "{off} {off_without}");
 }

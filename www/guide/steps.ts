@@ -77,7 +77,7 @@ export const METHOD: readonly MethodStep[] = [
     },
     Picture: Cone,
     fact: ({ own_landmarks: own }) =>
-      own === 0 ? null : `The program added ${integer(own)} cones of its own, because the landmarks are few.`,
+      own === 0 ? null : `The program added ${integer(own)} cones of its own: at ends of limbs without a landmark, or because the landmarks are few.`,
     look: { cones: true },
   },
   {

@@ -39,7 +39,7 @@ export function Choices({ state, actions }: Pick<PartProps, 'state' | 'actions'>
       />
       <Select
         label="Own cones"
-        title={`Points that the program adds as cones of its own where there are at most ${MOST_LANDMARKS_WITH_OWN_CONES} landmarks`}
+        title={`Points that the program adds as cones of its own where there are at most ${MOST_LANDMARKS_WITH_OWN_CONES} landmarks; with 0 also none at ends of limbs without a landmark`}
         value={options.ownCones === null ? 'usual' : String(options.ownCones)}
         choices={OWN_CONES}
         disabled={running || unrelaxed}

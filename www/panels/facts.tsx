@@ -58,7 +58,7 @@ function optionalFacts({ own_landmarks: own, layout, certificate, coverage, grou
     ...(coverage === null
       ? []
       : [{ name: 'Coverage', value: coverageSentence(coverage), note: 'The rest lies in caps over holes; all other numbers are measured where skin lies on skin' }]),
-    ...(own > 0 ? [{ name: 'Own cones', value: `${integer(own)} of the program’s own`, note: 'Points added where the landmarks are few' }] : []),
+    ...(own > 0 ? [{ name: 'Own cones', value: `${integer(own)} of the program’s own`, note: 'Points added at ends of limbs without a landmark, and where the landmarks are few' }] : []),
     ...(layout === null
       ? []
       : [
