@@ -1,6 +1,6 @@
 //! Cones that the program adds: at ends of limbs without a landmark, and where the user gave few landmarks.
 //!
-//! Ends of limbs that both bodies have become cones where that lowers the mean log density ([`limb_ends`]).
+//! Ends of limbs that both bodies have become cones where that lowers the mean log density (`limb_ends`).
 //!
 //! A cone surface with few cones is a poor image of a body with many limbs, and the descent of a map over it ends in a poor
 //! minimum. So points are added and carried to the target by the present map; the map is solved again with all as cones.
