@@ -124,6 +124,11 @@ impl CoarseMap<'_> {
         Ok(())
     }
 
+    /// Whether it is between two poses of one body, as [`Self::finish`] finds.
+    pub fn is_of_poses(&self) -> bool {
+        self.energy == MapEnergy::POSES
+    }
+
     /// The factor by which to scale the target so that the skin that both meshes share has the same area on both; `None` where no mesh
     /// has caps, or where the factor is within 1 % of 1.
     ///

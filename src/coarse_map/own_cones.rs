@@ -195,28 +195,31 @@ impl<'a> Adding<'_, 'a> {
         self.cells.len() > 0 && !monitor.wants_result()
     }
 
-    /// A map with cones at ends of limbs without a landmark, where its mean log density is lower; first with all that fit, then with half of
-    /// them, those farthest from the landmarks.
+    /// The best map with cones at ends of limbs without a landmark, where its mean log density is lower than that of the start: with all that
+    /// fit, or with half as many each time, those farthest from the landmarks.
+    ///
+    /// Between poses of one body there are none: patches that are registered place a limb better than two vertices of coarse levels do.
     fn at_limb_ends(
         &mut self,
         present: &LevelImages,
         monitor: &mut dyn Monitor,
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
-        if !self.may_go_on(monitor) {
-            return Ok(None);
+        let mut best: Option<OwnCones<'a>> = None;
+        if self.start.map.is_of_poses() || !self.may_go_on(monitor) {
+            return Ok(best);
         }
         let looking = &mut Portion::new(monitor, 0.0, 0.0);
         let mut ends = limb_ends::pairs(self.start.full, present, self.own.ends, looking)?;
-        let limit = (1.0 - self.own.least_gain) * self.start.map.mean_log;
         while !ends.is_empty() && self.may_go_on(monitor) {
+            let least = best.as_ref().map_or(self.start.map.mean_log, OwnCones::mean_log);
             let next = self.with_pairs(&ends, monitor)?;
-            if let Some(next) = next.filter(|next| next.mean_log() < limit) {
+            if let Some(next) = next.filter(|next| next.mean_log() < least) {
                 monitor.preview(&next.map);
-                return Ok(Some(next));
+                best = Some(next);
             }
             ends.truncate(ends.len() / 2);
         }
-        Ok(None)
+        Ok(best)
     }
 
     /// The best of `found` and of the maps of rounds with points far from all others; `None` where none is better than the start.
