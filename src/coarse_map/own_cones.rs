@@ -231,6 +231,7 @@ impl<'a> Adding<'_, 'a> {
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
         let start = self.start.map.mean_log;
         let least = |best: &Option<OwnCones<'a>>| best.as_ref().map_or(start, OwnCones::mean_log);
+        // Cells that rounds with ends left empty stay so.
         while self.cells.len() > self.own.rounds {
             self.cells.next();
         }
