@@ -21,7 +21,8 @@ const APART: f64 = 0.08;
 /// of ends that are each the best for the other are 0.04 to 0.43, then 0.60 to 1.05. A wrong pair raises the mean log density and is refused.
 const FITS: f64 = 0.5;
 
-/// Added to distances before their ratio is taken, so that near landmarks count no more than others; the area is 1. Chosen by hand.
+/// Added to distances before their ratio is taken, so that less than a coarse edge at a near landmark says little; the area is 1. Chosen by
+/// hand.
 const SOFTENING: f64 = 0.02;
 
 /// An end of a limb of a level.
@@ -116,7 +117,7 @@ mod tests {
     use glam::DVec3;
     use typed_index_collections::TiVec;
 
-    /// The places of the pairs that are found with these landmarks, on the meshes scaled to area 1.
+    /// The places of the pairs that are found with these landmarks, on both meshes scaled to area 1.
     fn found(meshes: [&SurfaceMesh; 2], landmarks: [&[VertexId]; 2]) -> Vec<[DVec3; 2]> {
         let full = [0, 1].map(|k| LandmarkedMesh::new(meshes[k], landmarks[k]).unwrap());
         let level = |k: usize| {

@@ -210,16 +210,17 @@ fn solve(
     let owners = Owners { meshes: &meshes, levels: &levels };
     let adding = &mut Portion::new(monitor, if has_own { 0.0 } else { SEARCHED }, 1.0);
     let own = own_cones::add(start, owners, &options.multilevel, &own_options, adding)?;
-    if let Some(own) = own.as_ref().filter(|_| !has_own) {
-        // The runner-up has no cones at ends of limbs.
-        search.rival = search.rival.map(|rival| rival * map.mean_log / own.mean_log());
-    }
     monitor.enter(Stage::Relaxation);
-    if let Some(own) = own
-        && let Some(refined) = own.refined(&options.multilevel, monitor)?
-    {
-        let Refined { surface, embeddings, full } = refined;
-        return Ok(Solved { layout, search, surface, embeddings, meshes: Some(full) });
+    if let Some(own) = own {
+        let worse = map.mean_log / own.mean_log();
+        if let Some(refined) = own.refined(&options.multilevel, monitor)? {
+            if !has_own {
+                // The runner-up has no cones at ends of limbs.
+                search.rival = search.rival.map(|rival| worse * rival);
+            }
+            let Refined { surface, embeddings, full } = refined;
+            return Ok(Solved { layout, search, surface, embeddings, meshes: Some(full) });
+        }
     }
     let surface = map.surface.clone();
     let embeddings = solve_fine(map, &options.multilevel, monitor)?;
