@@ -94,6 +94,8 @@ impl Arguments {
                 "--own-rounds" => arguments.options.own_cones.rounds = number() as usize,
                 "--own-patience" => arguments.options.own_cones.patience = number() as usize,
                 "--own-gain" => arguments.options.own_cones.least_gain = number(),
+                "--own-finer" => arguments.options.own_cones.finer_rounds = number() as usize,
+                "--own-finer-vertices" => arguments.options.own_cones.finer_vertices = number() as usize,
                 "--own-twists" => arguments.options.own_cones.search.twists = number() as usize,
                 "--own-candidates" => arguments.options.own_cones.search.candidates = number() as usize,
                 "--twists" => arguments.options.search.twists = number() as usize,

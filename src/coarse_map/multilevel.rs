@@ -358,6 +358,35 @@ impl CoarseMap<'_> {
         Ok(grown)
     }
 
+    /// The map on the first level that has at least this many vertices, settled on all levels up to there and measured on it, or on the last
+    /// level before the full meshes; `None` where that is the present one.
+    ///
+    /// # Errors
+    /// [`MapError::NoStart`], [`MapError::Cancelled`].
+    pub(super) fn refined_to(
+        &self,
+        least: usize,
+        options: &MultilevelOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<Self>, MapError> {
+        let mut map = self.clone();
+        let mut is_finer = false;
+        let is_between = |level: &ParametrisedLevel<'_>| {
+            let full = level.full_vertices();
+            options.next_level(level.mesh().live_vertices(), full) < full
+        };
+        while !map.have(least) && map.levels.iter().all(is_between) {
+            is_finer |= map.grow(options, monitor)?;
+            map.settle(options, false, monitor)?;
+        }
+        if !is_finer {
+            return Ok(None);
+        }
+        let as_it_is = MapRelaxationOptions { energy: map.energy, max_rounds: 0, ..options.fine };
+        map.mean_log = map.lower(&as_it_is, monitor, |seen| seen.mean_log())?;
+        Ok(Some(map))
+    }
+
     /// Repairs the dents of the map of the present levels.
     ///
     /// # Errors
@@ -549,4 +578,54 @@ pub fn solve_fine(
     let source = map.levels[0].snapshot().embedding;
     monitor.step(Step { fraction: 1.0, residual: None })?;
     Ok([source, map.levels[1].snapshot().embedding])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::class_search::{ClassChoice, ClassSearchOptions, choose_class};
+    use super::super::{LandmarkedMesh, coarse_levels};
+    use super::*;
+    use crate::demo;
+    use crate::layout::SearchOptions;
+
+    /// The mean distance of the images of a level's vertices from their true places.
+    fn off(map: &CoarseMap<'_>, truth: &[DVec3], scale: f64) -> f64 {
+        let images = map.images().unwrap();
+        let [source, target] = &images.levels;
+        let off = |v: VertexId| {
+            let image = images.target_from_source[v].position(&target.mesh);
+            truth.get(source.vertices[v].index()).map(|&place| image.distance(scale * place))
+        };
+        let all: Vec<f64> = source.mesh.vertices().filter_map(off).collect();
+        all.iter().sum::<f64>() / all.len() as f64
+    }
+
+    #[test]
+    fn a_map_between_poses_that_is_refined_to_a_finer_level_is_nearer_to_the_truth() {
+        let demo = demo::build("horse-turning").unwrap();
+        let full = [0, 1].map(|k| {
+            let landmarks: Vec<VertexId> = demo.landmarks.iter().map(|pair| VertexId(pair[k])).collect();
+            LandmarkedMesh::new([&demo.source, &demo.target][k], &landmarks).unwrap()
+        });
+        let options = &MultilevelOptions::default();
+        let levels = coarse_levels(&full, 600, options.rims, &mut Silent).unwrap();
+        let search = &SearchOptions { candidates: 1, twists: 0, ..SearchOptions::default() };
+        let class = ClassSearchOptions { multilevel: options, search, choice: ClassChoice::Best };
+        let mut map = choose_class(&levels, class, &mut Silent).unwrap().map;
+        map.finish(options, &mut Silent).unwrap();
+        assert!(map.is_of_poses());
+
+        let finer = map.refined_to(2000, options, &mut Silent).unwrap().unwrap();
+        let sizes = finer.images().unwrap().levels.map(|level| level.mesh.vertex_count());
+        assert!(sizes.iter().all(|size| (2000..2500).contains(size)), "{sizes:?}");
+        let scale = 1.0 / demo.target.area().sqrt();
+        let [before, after] = [&map, &finer].map(|map| off(map, demo.truth.as_ref().unwrap(), scale));
+        assert!(after < 0.6 * before, "{before} and {after}");
+
+        // The full meshes are left to the last refinement.
+        let last = finer.refined_to(usize::MAX, options, &mut Silent).unwrap().unwrap();
+        let sizes = last.images().unwrap().levels.map(|level| level.mesh.vertex_count());
+        assert!((0..2).all(|k| 2 * sizes[k] <= full[k].refined.mesh.vertex_count()), "{sizes:?}");
+        assert!(last.refined_to(usize::MAX, options, &mut Silent).unwrap().is_none());
+    }
 }
