@@ -310,6 +310,9 @@ impl<'a> Adding<'_, 'a> {
         while self.cells.len() > self.own.finer_rounds {
             self.cells.next();
         }
+        if !self.may_go_on(0, monitor) {
+            return Ok(best);
+        }
         let Some(mut last) = self.finer(&best, monitor)? else { return Ok(best) };
         while self.may_go_on(0, monitor) {
             let Some(images) = last.map.images() else { break };
