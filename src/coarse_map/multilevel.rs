@@ -197,6 +197,10 @@ impl CoarseMap<'_> {
         self.levels.iter().all(|level| level.mesh().live_vertices() >= vertices)
     }
 
+    fn is_full(&self) -> bool {
+        self.levels.iter().all(ParametrisedLevel::is_full)
+    }
+
     /// Registers patches and lowers the energy with their constraints, `rounds` times; then the constraints hold the vertices where
     /// they are, since constraints to other places would dent the small triangles of finer levels.
     ///
@@ -358,6 +362,30 @@ impl CoarseMap<'_> {
         Ok(grown)
     }
 
+    /// Goes on to the next level and lowers the energy there, with the rims that correspond drawn to each other; `false` where both are full.
+    ///
+    /// # Errors
+    /// [`MapError::NoStart`], [`MapError::Cancelled`].
+    fn settle_next(
+        &mut self,
+        lines: Option<&[Vec<BorderLine>; 2]>,
+        options: &MultilevelOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<bool, MapError> {
+        if !self.grow(options, &mut Portion::new(monitor, 0.0, 0.1))? {
+            return Ok(false);
+        }
+        // A round of draws takes about as long as the level without them.
+        let rounds = if lines.is_some() { options.rim_draws.rounds } else { 0 };
+        let settled = 0.1 + 0.9 / (1 + rounds) as f64;
+        self.settle(options, self.is_full(), &mut Portion::new(monitor, 0.1, settled))?;
+        if let Some(lines) = lines {
+            let drawing = &mut Portion::new(monitor, settled, 1.0);
+            self.draw_rims(lines, &options.rim_draws, &options.fine, drawing)?;
+        }
+        Ok(true)
+    }
+
     /// The map on the first level that has at least this many vertices, settled on all levels up to there and measured on it, or on the last
     /// level before the full meshes; `None` where that is the present one.
     ///
@@ -370,14 +398,17 @@ impl CoarseMap<'_> {
         monitor: &mut dyn Monitor,
     ) -> Result<Option<Self>, MapError> {
         let mut map = self.clone();
+        let lines = map.border_lines();
         let mut is_finer = false;
         let is_between = |level: &ParametrisedLevel<'_>| {
             let full = level.full_vertices();
             options.next_level(level.mesh().live_vertices(), full) < full
         };
-        while !map.have(least) && map.levels.iter().all(is_between) && map.grow(options, monitor)? {
+        while !map.have(least)
+            && map.levels.iter().all(is_between)
+            && map.settle_next(lines.as_ref(), options, monitor)?
+        {
             is_finer = true;
-            map.settle(options, false, monitor)?;
         }
         if !is_finer {
             return Ok(None);
@@ -552,24 +583,15 @@ pub fn solve_fine(
 ) -> Result<[Embedding; 2], MapError> {
     let mut ends = map.level_shares(options).into_iter();
     let lines = map.border_lines();
-    // A round of draws takes about as long as the level without them.
-    let rounds = if lines.is_some() { options.rim_draws.rounds } else { 0 };
-    let settled = 0.1 + 0.9 / (1 + rounds) as f64;
     let mut done = 0.0;
     loop {
         let from = done;
         done = ends.next().unwrap_or(1.0);
         let level = &mut Portion::new(monitor, from, done);
-        if !map.grow(options, &mut Portion::new(level, 0.0, 0.1))? {
+        if !map.settle_next(lines.as_ref(), options, level)? {
             break;
         }
-        let is_finest = map.levels.iter().all(ParametrisedLevel::is_full);
-        map.settle(options, is_finest, &mut Portion::new(level, 0.1, settled))?;
-        if let Some(lines) = &lines {
-            let drawing = &mut Portion::new(level, settled, 1.0);
-            map.draw_rims(lines, &options.rim_draws, &options.fine, drawing)?;
-        }
-        if !is_finest {
+        if !map.is_full() {
             level.preview(&map);
         }
     }
