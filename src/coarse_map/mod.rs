@@ -1,5 +1,6 @@
 //! Coarse maps: the class of the map is chosen among maps of two coarse levels, and the chosen map is refined to the full meshes.
 
+mod best_images;
 pub mod class_search;
 mod distance_guess;
 mod error;

@@ -7,6 +7,7 @@
 //! Every round takes fresh points, so that those of the round before are free to move. Between two poses of one body the last rounds place
 //! their points by a map that was refined first: on finer levels patches are registered.
 
+use super::best_images::SeenMaps;
 use super::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use super::distance_guess::{self, Guess};
 use super::error::CoarseMapError;
@@ -19,6 +20,7 @@ use super::own_points::{OwnPair, PointChoice, pairs, with};
 use crate::layout::SearchOptions;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion};
+use crate::surface_map::relaxation::map_relaxation::MapRelaxationOptions;
 use crate::surface_map::{ConeSurface, Embedding, MapError, certify};
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -183,8 +185,8 @@ pub struct Start<'a> {
 ///
 /// First come ends of limbs without a landmark. Where there are few landmarks, rounds of points far from all others follow: these begin with
 /// images under the map and, for the case that it is of a wrong class, with images guessed from distances (`distance_guess`). Every further
-/// round takes fresh points at their images under the last map, unless that is much worse than the best one. Between poses of one body the
-/// map is then refined, and gives the images of the points of further rounds.
+/// round takes fresh points at their images under that of the maps so far which distorts least around them (`best_images`). Between poses of
+/// one body the map is then refined, and gives the images of the points of further rounds.
 ///
 /// # Errors
 /// Cancellation only.
@@ -200,7 +202,8 @@ pub fn add<'a>(
         return Ok(None);
     }
     let Some(images) = map.images() else { return Ok(None) };
-    let mut adding = Adding { start, multilevel, own, cells: owners.cells(), before: Vec::new() };
+    let mut adding =
+        Adding { start, multilevel, own, cells: owners.cells(), before: Vec::new(), is_one_body: None };
     let with_ends = adding.at_limb_ends(&images, monitor)?;
     if full[0].landmarks.len() > own.most_landmarks {
         return Ok(with_ends);
@@ -216,6 +219,17 @@ struct Adding<'s, 'a> {
     cells: Cells<'a>,
     /// The source's vertices that were own points in the round before.
     before: Vec<VertexId>,
+    /// Whether patches of both meshes fit each other; `None` before they were registered.
+    is_one_body: Option<bool>,
+}
+
+/// The maps that begin with own points at images guessed from distances.
+#[derive(Default)]
+struct Beginning<'a> {
+    /// The images under the map with points at the guesses themselves.
+    strained: Option<LevelImages>,
+    /// The map whose points were placed by it.
+    placed: Option<OwnCones<'a>>,
 }
 
 impl<'a> Adding<'_, 'a> {
@@ -262,7 +276,7 @@ impl<'a> Adding<'_, 'a> {
     fn far_points(
         &mut self,
         found: Option<OwnCones<'a>>,
-        mut images: LevelImages,
+        images: LevelImages,
         monitor: &mut dyn Monitor,
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
         let start = self.start.map.mean_log;
@@ -272,26 +286,32 @@ impl<'a> Adding<'_, 'a> {
         if !self.may_go_on(kept, monitor) {
             return Ok(found);
         }
+        let mut seen = SeenMaps::new(self.start.full[0].refined.mesh.vertex_count());
+        seen.add(images.clone());
         // The class of the map with ends may be another one, and wrong: so this round begins without it.
-        let first = self.round(&images, |_| true, monitor)?;
+        let first = self.round(&images, |_| true, &self.own.search, monitor)?;
+        let first_images = first.as_ref().and_then(|first| first.map.images());
         let mut best = first.filter(|first| first.mean_log() < least(&found)).or(found);
-        let other = self.by_distances(&images, least(&best), monitor)?;
-        best = other.filter(|other| other.mean_log() < least(&best)).or(best);
+        let Beginning { strained, placed } = self.by_distances(&images, least(&best), monitor)?;
+        let other_images = placed.as_ref().and_then(|other| other.map.images());
+        let other = placed.filter(|other| other.mean_log() < least(&best));
+        // The better one comes last, since the next round takes its levels.
+        let by_rank =
+            if other.is_some() { [first_images, other_images] } else { [other_images, first_images] };
+        [strained].into_iter().chain(by_rank).flatten().for_each(|images| seen.add(images));
+        best = other.or(best);
         if let Some(first) = &best {
             monitor.preview(&first.map);
-            let Some(of_first) = first.map.images() else { return Ok(best) };
-            images = of_first;
         }
         let mut without_gain = usize::from(best.is_none());
         while without_gain < self.own.patience && self.may_go_on(kept, monitor) {
             without_gain += 1;
-            let Some(next) = self.round(&images, |_| true, monitor)? else { continue };
-            let (reached, least) = (next.mean_log(), least(&best));
-            if reached >= USABLE * least {
-                continue;
-            }
+            let search = self.search_after(best.as_ref(), monitor)?;
+            let Some(images) = seen.best_images() else { break };
+            let Some(next) = self.round(&images, |_| true, &search, monitor)? else { continue };
             let Some(next_images) = next.map.images() else { continue };
-            images = next_images;
+            seen.add(next_images);
+            let (reached, least) = (next.mean_log(), least(&best));
             if reached >= least {
                 continue;
             }
@@ -302,7 +322,9 @@ impl<'a> Adding<'_, 'a> {
             best = Some(next);
         }
         match best {
-            Some(best) if best.map.is_of_poses() => Ok(Some(self.by_finer_levels(best, monitor)?)),
+            Some(best) if best.map.is_of_poses() && self.is_one_body != Some(false) => {
+                Ok(Some(self.by_finer_levels(best, monitor)?))
+            }
             best => Ok(best),
         }
     }
@@ -320,13 +342,13 @@ impl<'a> Adding<'_, 'a> {
         if !self.may_go_on(0, monitor) {
             return Ok(best);
         }
-        let Some(mut last) = self.finer(&best, monitor)? else { return Ok(best) };
+        let Some(mut last) = self.finer(&best, self.own.finer_vertices, monitor)? else { return Ok(best) };
         monitor.preview(&last.map);
         while self.may_go_on(0, monitor) {
             let Some(images) = last.map.images() else { break };
             let points = self.own_points(&images, |_| true, monitor)?;
             let Some(next) = self.with_pairs(&points, &self.own.drawn_once(), monitor)? else { break };
-            let Some(next) = self.finer(&next, monitor)? else { break };
+            let Some(next) = self.finer(&next, self.own.finer_vertices, monitor)? else { break };
             if !next.map.is_of_poses() || next.mean_log() >= CREDIBLE * last.mean_log() {
                 break;
             }
@@ -336,18 +358,36 @@ impl<'a> Adding<'_, 'a> {
         Ok(last)
     }
 
-    /// The same on finer levels; `None` where there are none between the coarse level and the full meshes, or where there is no map.
+    /// The same on a level with at least this many vertices; `None` where there are none between the coarse level and the full meshes, or where there is no map.
     fn finer(
         &self,
         found: &OwnCones<'a>,
+        vertices: usize,
         monitor: &mut dyn Monitor,
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
         let part = &mut Portion::new(monitor, self.done(0.0), self.done(0.0));
-        match found.map.refined_to(self.own.finer_vertices, self.multilevel, part) {
+        match found.map.refined_to(vertices, self.multilevel, part) {
             Ok(refined) => Ok(refined.map(|map| OwnCones { full: found.full, map })),
             Err(MapError::Cancelled(stop)) => Err(stop),
             Err(_) => Ok(None),
         }
+    }
+
+    /// The search of the next round. Between poses of one body twists are judged in every round, or legs stay turned.
+    fn search_after(
+        &mut self,
+        best: Option<&OwnCones<'a>>,
+        monitor: &mut dyn Monitor,
+    ) -> Result<SearchOptions, Cancelled> {
+        let Some(best) = best.filter(|best| best.map.is_of_poses()) else { return Ok(self.own.drawn_once()) };
+        let is_one_body = match self.is_one_body {
+            Some(known) => known,
+            None => match self.finer(best, ONE_LEVEL, monitor)? {
+                Some(finer) => *self.is_one_body.insert(finer.map.is_of_one_body()),
+                None => true,
+            },
+        };
+        Ok(if is_one_body { self.own.search } else { self.own.drawn_once() })
     }
 
     /// A map that begins with own points at images guessed from distances. Those are not exact, so the first map is distorted too much; it
@@ -357,10 +397,10 @@ impl<'a> Adding<'_, 'a> {
         present: &LevelImages,
         least: f64,
         monitor: &mut dyn Monitor,
-    ) -> Result<Option<OwnCones<'a>>, Cancelled> {
+    ) -> Result<Beginning<'a>, Cancelled> {
         let kept = self.own.finer_rounds;
         if !self.may_go_on(kept, monitor) {
-            return Ok(None);
+            return Ok(Beginning::default());
         }
         let quiet = &mut Portion::new(monitor, 0.0, 0.0);
         let guesses = guesses(present, self.start.full, quiet)?;
@@ -368,15 +408,17 @@ impl<'a> Adding<'_, 'a> {
         let image = |guess: &Guess| SurfacePoint::at_vertex(target, guess.vertex);
         let images = present.with_images(guesses.iter().map(image).collect());
         self.before.clear();
-        let Some(strained) = self.round(&images, |v| guesses[v].is_trusted, monitor)? else {
-            return Ok(None);
+        let drawn_once = self.own.drawn_once();
+        let strained = self.round(&images, |v| guesses[v].is_trusted, &drawn_once, monitor)?;
+        let Some((strained, images)) = strained.and_then(|map| Some((map.mean_log(), map.map.images()?)))
+        else {
+            return Ok(Beginning::default());
         };
-        match strained.map.images() {
-            Some(images) if strained.mean_log() < PROMISING * least && self.may_go_on(kept, monitor) => {
-                self.round(&images, |_| true, monitor)
-            }
-            _ => Ok(None),
+        if strained >= PROMISING * least || !self.may_go_on(kept, monitor) {
+            return Ok(Beginning { strained: Some(images), placed: None });
         }
+        let placed = self.round(&images, |_| true, &self.own.search, monitor)?;
+        Ok(Beginning { strained: Some(images), placed })
     }
 
     /// A map with fresh own points, of the vertices that `may` be taken, at the given images; `None` where there are none, or no map.
@@ -384,10 +426,11 @@ impl<'a> Adding<'_, 'a> {
         &mut self,
         images: &LevelImages,
         may: impl Fn(VertexId) -> bool,
+        search: &SearchOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
         let points = self.own_points(images, may, monitor)?;
-        self.with_pairs(&points, &self.own.search, monitor)
+        self.with_pairs(&points, search, monitor)
     }
 
     /// Fresh own points, of the vertices that `may` be taken, at the given images.
@@ -426,7 +469,9 @@ impl<'a> Adding<'_, 'a> {
         let coarsening = &mut Portion::new(monitor, placed, placed);
         let levels = mesh_with_coarse::both(with_own, vertices, multilevel.rims, coarsening)?;
         let levels = levels_cell.get_or_init(|| levels);
-        let options = ClassSearchOptions { multilevel, search, choice: ClassChoice::Best };
+        // The class is looked for in every round: close maps are not compared on finer levels as well.
+        let judged = &MultilevelOptions { finer: 0, ..*multilevel };
+        let options = ClassSearchOptions { multilevel: judged, search, choice: ClassChoice::Best };
         let looking = Portion::new(monitor, placed, chosen);
         match choose_class(levels, options, &mut looking.unseen()) {
             Ok(best) => {
@@ -454,10 +499,12 @@ const CREDIBLE: f64 = 1.3;
 /// by placing the points anew (12 %).
 const PROMISING: f64 = 1.2;
 
-/// The next round takes its images from the last map, also where that is not the best, since the points of the best map have moved in it;
-/// but not where its mean log density is at least this many times the least, as it may be of another class. 1 and 1.5 were tried on four
-/// folded bodies (see docs/experiments.md).
-const USABLE: f64 = 1.5;
+/// Relative decrease of the energy in one step at which the relaxation of a round's map ends. With a tenth of it, as where the map of the user's
+/// landmarks is relaxed, maps of twelve pairs of animals are as good, and take longer; with five times as much they are worse by 1 %.
+const SETTLED: f64 = 2e-4;
+
+/// Vertices of the level on which patches tell whether both meshes are one body: the first on which they are registered.
+const ONE_LEVEL: usize = 1000;
 
 /// The image of each vertex of the source level on the target level, guessed from distances.
 fn guesses(
@@ -472,13 +519,14 @@ fn guesses(
     distance_guess::guess([&source.mesh, &target.mesh], [&on_source, &on_target], monitor)
 }
 
-/// The chosen map, relaxed as far as its coarse level goes.
+/// The chosen map, relaxed.
 fn finished<'a>(
     mut map: CoarseMap<'a>,
     options: &MultilevelOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<CoarseMap<'a>, Cancelled> {
-    match map.finish(options, monitor) {
+    let coarse = MapRelaxationOptions { relative_decrease: SETTLED, ..options.coarse };
+    match map.finish(&MultilevelOptions { coarse, ..*options }, monitor) {
         Err(MapError::Cancelled(stop)) => Err(stop),
         _ => Ok(map),
     }

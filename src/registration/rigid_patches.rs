@@ -67,6 +67,15 @@ impl Default for RigidPatchOptions {
     }
 }
 
+/// Patches that were registered.
+pub struct Registered {
+    /// Constraints that draw vertices of the level to the places at which the patches around them fit.
+    pub constraints: Vec<(VertexId, PointConstraint)>,
+    /// How well the patches fit, from 0 to 1: the mean of noise^2 / (noise^2 + m) over the area and both radii, with the mean square
+    /// distance m of a patch; 0 for patches that were not fitted.
+    pub fit: f64,
+}
+
 /// Points of a patch, at least: twice the six unknowns of a rigid motion.
 const LEAST_POINTS: usize = 12;
 
@@ -119,16 +128,16 @@ impl<'a> MappedLevel<'a> {
 /// Patches between two questions to the monitor: some milliseconds.
 const ASKED_EVERY: usize = 64;
 
-/// Constraints that draw vertices of a level to the places at which the patches around them fit the other surface. Both areas are 1.
+/// Registers patches around the vertices of a level to the other surface. Both areas are 1.
 ///
 /// # Errors
 /// [`Cancelled`].
-pub fn point_constraints(
+pub fn register(
     [own, onto]: [&OrientedSurface<'_>; 2],
     level: &MappedLevel<'_>,
     options: &RigidPatchOptions,
     monitor: &mut dyn Monitor,
-) -> Result<Vec<(VertexId, PointConstraint)>, Cancelled> {
+) -> Result<Registered, Cancelled> {
     monitor.step(Step::default())?;
     let weights = spread(own, level, options.spacing);
     // Every vertex is in many patches, which all start from here.
@@ -136,6 +145,7 @@ pub fn point_constraints(
     let mut patches = Patches { own, level, weights: &weights, near, reached: ti_vec![None; weights.len()] };
     let (mut fitter, mut patch) = (Fitter::default(), Vec::new());
     let mut constraints = Vec::new();
+    let (mut fitted, mut all) = (0.0, 0.0);
     for (k, v) in level.mesh.vertices().filter(|&v| weights[v] > 0.0).enumerate() {
         if k.is_multiple_of(ASKED_EVERY) {
             monitor.step(Step::default())?;
@@ -143,16 +153,24 @@ pub fn point_constraints(
         let mut sum = SummedFit::new(onto.normals[patches.near[v]]);
         for radius in options.radii {
             patches.around(v, radius, &mut patch);
+            all += weights[v];
             let fit =
                 if patch.len() < LEAST_POINTS { None } else { fitter.fit(&mut patch, onto, &options.fit) };
             if let Some(fit) = fit.filter(|fit| fit.centre.distance(level.images[v]) < FARTHEST) {
                 sum.add(&fit, level.images[v], options.fit.noise);
+                fitted += weights[v] * trust(&fit, options.fit.noise);
             }
         }
         constraints
             .extend(sum.constraint(level.images[v], weights[v], options).map(|constraint| (v, constraint)));
     }
-    Ok(constraints)
+    Ok(Registered { constraints, fit: if all > 0.0 { fitted / all } else { 0.0 } })
+}
+
+/// How well a patch fits, from 0 to 1.
+fn trust(fit: &PatchFit, noise: f64) -> f64 {
+    let square = noise * noise;
+    square / (square + fit.misfit)
 }
 
 /// Samples vertices about `spacing` apart, or as far as the level's are; returns the area that each one stands for, 0 for vertices that
@@ -244,9 +262,8 @@ impl SummedFit {
     }
 
     fn add(&mut self, fit: &PatchFit, image: DVec3, noise: f64) {
-        let square = noise * noise;
-        let trust = square / (square + fit.misfit);
-        let column = |axis: DVec3| self.in_plane(fit.hold * axis) * (trust * trust / square);
+        let trust = trust(fit, noise);
+        let column = |axis: DVec3| self.in_plane(fit.hold * axis) * (trust * trust / (noise * noise));
         let form = DMat2::from_cols(column(self.frame[0]), column(self.frame[1]));
         self.slope += form * self.in_plane(fit.centre - image);
         self.form += form;
@@ -314,7 +331,9 @@ mod tests {
         let surface = OrientedSurface::new(&mesh);
         let level = slid(&mesh, &all, &surface);
         let options = RigidPatchOptions::default();
-        let found = point_constraints([&surface, &surface], &level, &options, &mut Silent).unwrap();
+        let Registered { constraints: found, fit } =
+            register([&surface, &surface], &level, &options, &mut Silent).unwrap();
+        assert!(fit > 0.9, "{fit}");
         assert!(found.len() > 500, "{}", found.len());
         let mut errors: Vec<[f64; 2]> = found
             .iter()

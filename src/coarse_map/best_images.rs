@@ -1,0 +1,206 @@
+//! Images of the source's vertices under several maps, at each vertex those of the map that distorts the surface around it least.
+//!
+//! Of two maps each may be the better one somewhere: one turns a leg, the other an arm. Where two coarse maps of poses are farther apart
+//! than [`ELSEWHERE`], the one that distorts less around the vertex is the nearer one to the truth for nine tenths of the distance (see
+//! docs/experiments.md).
+
+use super::multilevel::LevelImages;
+use crate::math::scalar::{ln, max};
+use crate::mesh::closest_point::closest_point;
+use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
+use glam::DVec3;
+use typed_index_collections::{TiSlice, TiVec};
+
+/// Images that are nearer to each other than this are taken for the same; the area is 1. Half the length of a coarse level's edges.
+const ELSEWHERE: f64 = 0.03;
+
+/// The distortion around a vertex is that of the faces whose centres are within this distance; the area is 1. About the girth of a thin
+/// limb; 0.07 and 0.14 were tried (see docs/experiments.md).
+const AROUND: f64 = 0.1;
+
+/// Least ratio of areas whose distortion is told apart: triangles whose corners have one image have the area 0.
+const LEAST_AREA: f64 = 1e-6;
+
+/// Maps of coarse levels of the same two meshes.
+pub(super) struct SeenMaps {
+    /// The number of the source's vertices without own points: a vertex with a larger number is another one in every round.
+    known: usize,
+    maps: Vec<SeenMap>,
+}
+
+struct SeenMap {
+    images: LevelImages,
+    /// The mean log density around each vertex of the source level.
+    around: TiVec<VertexId, f64>,
+}
+
+impl SeenMaps {
+    /// No maps yet, of levels of a source with this many vertices.
+    pub(super) fn new(known: usize) -> Self {
+        Self { known, maps: Vec::new() }
+    }
+
+    /// Adds a map.
+    pub(super) fn add(&mut self, images: LevelImages) {
+        let around = mean_log_around(&images);
+        self.maps.push(SeenMap { images, around });
+    }
+
+    /// The levels of the last map that was added; each vertex has its image under the map that distorts least around it. `None` where there
+    /// is no map.
+    pub(super) fn best_images(&self) -> Option<LevelImages> {
+        let (last, others) = self.maps.split_last()?;
+        let [source, target] = &last.images.levels;
+        let best = |v: VertexId| {
+            let own = last.images.target_from_source[v];
+            let full = source.vertices[v];
+            if full.index() >= self.known {
+                return own;
+            }
+            let place = own.position(&target.mesh);
+            let (mut least, mut image) = (last.around[v], own);
+            for other in others {
+                let [level, onto] = &other.images.levels;
+                let Ok(w) = level.vertices.binary_search(&full) else { continue };
+                if other.around[w] >= least {
+                    continue;
+                }
+                let at = other.images.target_from_source[w];
+                let there = at.position(&onto.mesh);
+                if there.distance(place) > ELSEWHERE {
+                    let [a, b, c] = onto.mesh.corners(at.face);
+                    least = other.around[w];
+                    image = closest_point(&target.mesh, there, (b - a).cross(c - a));
+                }
+            }
+            image
+        };
+        let images: TiVec<VertexId, SurfacePoint> = source.mesh.vertices().map(best).collect();
+        Some(last.images.with_images(images))
+    }
+}
+
+/// A face with its centre, its area, and the logarithm of its distortion density.
+struct Distorted {
+    centre: DVec3,
+    area: f64,
+    log_density: f64,
+}
+
+/// The mean log density by area around each vertex of the source level; infinite where there is no skin.
+fn mean_log_around(images: &LevelImages) -> TiVec<VertexId, f64> {
+    let [source, target] = &images.levels;
+    let mesh = &source.mesh;
+    let [weights, _] = images.weights();
+    let places: TiVec<VertexId, DVec3> =
+        images.target_from_source.iter().map(|at| at.position(&target.mesh)).collect();
+    let distorted = |f: FaceId| Distorted {
+        centre: mesh.corners(f).iter().sum::<DVec3>() / 3.0,
+        area: mesh.face_area(f),
+        log_density: log_density(mesh, f, &places),
+    };
+    let faces: Vec<Distorted> = mesh.faces().filter(|&f| weights.is_skin(f)).map(distorted).collect();
+    let around = |place: &DVec3| {
+        let near = faces.iter().filter(|face| face.centre.distance_squared(*place) < AROUND * AROUND);
+        let add =
+            |[area, sum]: [f64; 2], face: &Distorted| [area + face.area, sum + face.area * face.log_density];
+        let [area, sum] = near.fold([0.0; 2], add);
+        if area > 0.0 { sum / area } else { f64::INFINITY }
+    };
+    mesh.positions().iter().map(around).collect()
+}
+
+/// The logarithm of the distortion density of the linear map of a face to the triangle of its corners' places; 0 for an isometry.
+fn log_density(mesh: &SurfaceMesh, f: FaceId, places: &TiSlice<VertexId, DVec3>) -> f64 {
+    let from = flat(mesh.corners(f));
+    let onto = flat(mesh.triangles()[f].map(|v| places[v]));
+    let [along, across] = [onto.side / from.side, onto.height / from.height];
+    let shear = (onto.foot - along * from.foot) / from.height;
+    let squares = along * along + across * across + shear * shear;
+    let area = max(along * across, LEAST_AREA);
+    ln(max(squares * (1.0 + 1.0 / (area * area)) / 4.0, 1.0))
+}
+
+/// A triangle laid flat.
+struct Flat {
+    /// The length of its first side.
+    side: f64,
+    /// The place of the third corner's foot along that side.
+    foot: f64,
+    /// The height of the third corner above it.
+    height: f64,
+}
+
+fn flat([a, b, c]: [DVec3; 3]) -> Flat {
+    let (first, last) = (b - a, c - a);
+    let side = first.length();
+    Flat { side, foot: first.dot(last) / side, height: first.cross(last).length() / side }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::coarsening::Level;
+    use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
+    use glam::DQuat;
+
+    /// A long body of area 1 onto itself, the half where `z` has the sign wrung: turned about the axis more and more, from the middle to half
+    /// a turn at 0.2.
+    fn wrung(level: &Level, sign: f64) -> LevelImages {
+        let mesh = &level.mesh;
+        let image = |p: &DVec3| {
+            let share = (sign * p.z / 0.2).clamp(0.0, 1.0);
+            let place = DQuat::from_rotation_z(share * std::f64::consts::PI) * *p;
+            closest_point(mesh, place, place * DVec3::new(1.0, 1.0, 0.04))
+        };
+        LevelImages::of_skin([level.clone(), level.clone()], mesh.positions().iter().map(image).collect())
+    }
+
+    /// A coarse level of a long body of area 1, with the number of vertices of the body.
+    fn long_body() -> (Level, usize) {
+        let ball = icosphere(4);
+        let long =
+            ball.with_positions(ball.positions().iter().map(|p| *p * DVec3::new(0.2, 0.2, 1.0)).collect());
+        let scale = long.area().sqrt().recip();
+        let mesh = long.with_positions(long.positions().iter().map(|p| *p * scale).collect());
+        let tips = [VertexId(0), VertexId(1)];
+        (Level::coarse(&mesh, &tips, 600, &mut Silent).unwrap(), mesh.vertex_count())
+    }
+
+    /// The largest distance of a vertex from its image, near the middle, where the body is wrung.
+    fn off(images: &LevelImages) -> f64 {
+        let mesh = &images.levels[0].mesh;
+        let wrung = mesh.vertices().filter(|v| (0.05..0.15).contains(&mesh.positions()[*v].z.abs()));
+        let off = |v: VertexId| images.target_from_source[v].position(mesh).distance(mesh.positions()[v]);
+        wrung.map(off).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn triangles_of_the_same_shape_have_the_density_of_their_scale() {
+        let ball = icosphere(1);
+        for scale in [0.5_f64, 1.0, 3.0] {
+            let turn = DQuat::from_rotation_x(0.7);
+            let places: TiVec<VertexId, DVec3> =
+                ball.positions().iter().map(|p| turn * (*p * scale)).collect();
+            let density = (scale * scale + 1.0 / (scale * scale)) / 2.0;
+            assert!(ball.faces().all(|f| (log_density(&ball, f, &places) - density.ln()).abs() < 1e-12));
+        }
+        let flat: TiVec<VertexId, DVec3> = ball.positions().iter().map(|_| DVec3::X).collect();
+        assert!(ball.faces().all(|f| !(log_density(&ball, f, &flat) < 1.0)));
+    }
+
+    #[test]
+    fn of_two_maps_that_wring_one_half_each_the_other_halves_are_taken() {
+        let (level, known) = long_body();
+        let mut seen = SeenMaps::new(known);
+        assert!(seen.best_images().is_none());
+        let [up, down] = [1.0, -1.0].map(|sign| wrung(&level, sign));
+        assert!(off(&up) > 0.1 && off(&down) > 0.1);
+        seen.add(up.clone());
+        assert_eq!(seen.best_images().unwrap().target_from_source, up.target_from_source);
+        seen.add(down);
+        let best = off(&seen.best_images().unwrap());
+        assert!(best <= ELSEWHERE, "{best}");
+    }
+}
