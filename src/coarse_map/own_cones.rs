@@ -183,8 +183,8 @@ pub struct Start<'a> {
 
 /// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
 ///
-/// First come ends of limbs without a landmark. Where there are few landmarks, rounds of points far from all others follow: these begin with
-/// images under the map and, for the case that it is of a wrong class, with images guessed from distances (`distance_guess`). Every further
+/// Ends of limbs without a landmark are added. Where there are few landmarks, there are rounds of points far from all others as well: they
+/// begin with images under the map and, for the case that it is of a wrong class, with images guessed from distances (`distance_guess`). Every further
 /// round takes fresh points at their images under that of the maps so far which distorts least around them (`best_images`). Between poses of
 /// one body the map is then refined, and gives the images of the points of further rounds.
 ///
@@ -204,11 +204,11 @@ pub fn add<'a>(
     let Some(images) = map.images() else { return Ok(None) };
     let mut adding =
         Adding { start, multilevel, own, cells: owners.cells(), before: Vec::new(), is_one_body: None };
-    let with_ends = adding.at_limb_ends(&images, monitor)?;
     if full[0].landmarks.len() > own.most_landmarks {
-        return Ok(with_ends);
+        adding.at_limb_ends(&images, monitor)
+    } else {
+        adding.far_points(&images, monitor)
     }
-    adding.far_points(with_ends, images, monitor)
 }
 
 /// Rounds of own landmarks, one after the other.
@@ -272,36 +272,38 @@ impl<'a> Adding<'_, 'a> {
         Ok(best)
     }
 
-    /// The best of `found` and of the maps of rounds with points far from all others; `None` where none is better than the start.
+    /// The best of the maps of rounds with points far from all others; `None` where none is better than the start.
     fn far_points(
         &mut self,
-        found: Option<OwnCones<'a>>,
-        images: LevelImages,
+        images: &LevelImages,
         monitor: &mut dyn Monitor,
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
         let start = self.start.map.mean_log;
         let least = |best: &Option<OwnCones<'a>>| best.as_ref().map_or(start, OwnCones::mean_log);
-        self.leave_all_but(self.own.all_rounds());
         let kept = self.own.finer_rounds;
         if !self.may_go_on(kept, monitor) {
-            return Ok(found);
+            return Ok(None);
         }
         let mut seen = SeenMaps::new(self.start.full[0].refined.mesh.vertex_count());
         seen.add(images.clone());
-        // The class of the map with ends may be another one, and wrong: so this round begins without it.
-        let first = self.round(&images, |_| true, &self.own.search, monitor)?;
-        let first_images = first.as_ref().and_then(|first| first.map.images());
-        let mut best = first.filter(|first| first.mean_log() < least(&found)).or(found);
-        let Beginning { strained, placed } = self.by_distances(&images, least(&best), monitor)?;
-        let other_images = placed.as_ref().and_then(|other| other.map.images());
-        let other = placed.filter(|other| other.mean_log() < least(&best));
-        // The better one comes last, since the next round takes its levels.
-        let by_rank =
-            if other.is_some() { [first_images, other_images] } else { [other_images, first_images] };
-        [strained].into_iter().chain(by_rank).flatten().for_each(|images| seen.add(images));
-        best = other.or(best);
-        if let Some(first) = &best {
-            monitor.preview(&first.map);
+        let first = self.round(images, |_| true, &self.own.search, monitor)?;
+        seen.extend(first.as_ref().and_then(|first| first.map.images()));
+        let mut best = first.filter(|first| first.mean_log() < start);
+        // The class of a map with ends may be another one, and wrong: so the first round begins without it.
+        if !best.as_ref().is_some_and(|first| first.map.is_of_poses()) {
+            let ends = self.at_limb_ends(images, monitor)?;
+            best = ends.filter(|ends| ends.mean_log() < least(&best)).or(best);
+        }
+        self.leave_all_but(self.own.all_rounds().saturating_sub(1));
+        let search = self.search_after(best.as_ref(), monitor)?;
+        let Beginning { strained, placed } = self.by_distances(images, least(&best), &search, monitor)?;
+        seen.extend(strained);
+        seen.extend(placed.as_ref().and_then(|placed| placed.map.images()));
+        best = placed.filter(|placed| placed.mean_log() < least(&best)).or(best);
+        if let Some(best) = &best {
+            monitor.preview(&best.map);
+            // The next round takes the levels of the last map.
+            seen.extend(best.map.images());
         }
         let mut without_gain = usize::from(best.is_none());
         while without_gain < self.own.patience && self.may_go_on(kept, monitor) {
@@ -309,8 +311,7 @@ impl<'a> Adding<'_, 'a> {
             let search = self.search_after(best.as_ref(), monitor)?;
             let Some(images) = seen.best_images() else { break };
             let Some(next) = self.round(&images, |_| true, &search, monitor)? else { continue };
-            let Some(next_images) = next.map.images() else { continue };
-            seen.add(next_images);
+            seen.extend(next.map.images());
             let (reached, least) = (next.mean_log(), least(&best));
             if reached >= least {
                 continue;
@@ -396,6 +397,7 @@ impl<'a> Adding<'_, 'a> {
         &mut self,
         present: &LevelImages,
         least: f64,
+        search: &SearchOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<Beginning<'a>, Cancelled> {
         let kept = self.own.finer_rounds;
@@ -417,7 +419,7 @@ impl<'a> Adding<'_, 'a> {
         if strained >= PROMISING * least || !self.may_go_on(kept, monitor) {
             return Ok(Beginning { strained: Some(images), placed: None });
         }
-        let placed = self.round(&images, |_| true, &self.own.search, monitor)?;
+        let placed = self.round(&images, |_| true, search, monitor)?;
         Ok(Beginning { strained: Some(images), placed })
     }
 
