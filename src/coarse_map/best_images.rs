@@ -191,7 +191,7 @@ mod tests {
             let places: TiVec<VertexId, DVec3> =
                 ball.positions().iter().map(|p| turn * (*p * scale)).collect();
             let density = (scale * scale + 1.0 / (scale * scale)) / 2.0;
-            assert!(ball.faces().all(|f| (log_density(&ball, f, &places) - density.ln()).abs() < 1e-12));
+            assert!(ball.faces().all(|f| (log_density(&ball, f, &places) - ln(density)).abs() < 1e-12));
         }
         let flat: TiVec<VertexId, DVec3> = ball.positions().iter().map(|_| DVec3::X).collect();
         assert!(ball.faces().all(|f| log_density(&ball, f, &flat) > 10.0));
