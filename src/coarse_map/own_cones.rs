@@ -359,7 +359,8 @@ impl<'a> Adding<'_, 'a> {
         Ok(last)
     }
 
-    /// The same on a level with at least this many vertices; `None` where there are none between the coarse level and the full meshes, or where there is no map.
+    /// The same on a level with at least this many vertices; `None` where there are none between the coarse level and the full meshes, or
+    /// where there is no map.
     fn finer(
         &self,
         found: &OwnCones<'a>,
