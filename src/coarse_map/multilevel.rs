@@ -643,7 +643,7 @@ mod tests {
     use super::super::class_search::{ClassChoice, ClassSearchOptions, choose_class};
     use super::super::{LandmarkedMesh, coarse_levels};
     use super::*;
-    use crate::demo;
+    use crate::demo::{self, Demo};
     use crate::layout::SearchOptions;
     use crate::math::scalar::sin;
 
@@ -659,19 +659,30 @@ mod tests {
         all.iter().sum::<f64>() / all.len() as f64
     }
 
+    /// Both meshes with the landmarks of a demo.
+    fn landmarked(meshes: [&SurfaceMesh; 2], demo: &Demo) -> [LandmarkedMesh; 2] {
+        [0, 1].map(|k| {
+            let landmarks: Vec<VertexId> = demo.landmarks.iter().map(|pair| VertexId(pair[k])).collect();
+            LandmarkedMesh::new(meshes[k], &landmarks).unwrap()
+        })
+    }
+
+    /// The relaxed map of two coarse levels whose layout is drawn once.
+    fn drawn_once<'a>(levels: &'a [MeshWithCoarse<'a>; 2], options: &MultilevelOptions) -> CoarseMap<'a> {
+        let search = &SearchOptions { candidates: 1, twists: 0, ..SearchOptions::default() };
+        let class = ClassSearchOptions { multilevel: options, search, choice: ClassChoice::Best };
+        let mut map = choose_class(levels, class, &mut Silent).unwrap().map;
+        map.finish(options, &mut Silent).unwrap();
+        map
+    }
+
     #[test]
     fn a_map_between_poses_that_is_refined_to_a_finer_level_is_nearer_to_the_truth() {
         let demo = demo::build("horse-turning").unwrap();
-        let full = [0, 1].map(|k| {
-            let landmarks: Vec<VertexId> = demo.landmarks.iter().map(|pair| VertexId(pair[k])).collect();
-            LandmarkedMesh::new([&demo.source, &demo.target][k], &landmarks).unwrap()
-        });
+        let full = landmarked([&demo.source, &demo.target], &demo);
         let options = &MultilevelOptions::default();
         let levels = coarse_levels(&full, 600, options.rims, &mut Silent).unwrap();
-        let search = &SearchOptions { candidates: 1, twists: 0, ..SearchOptions::default() };
-        let class = ClassSearchOptions { multilevel: options, search, choice: ClassChoice::Best };
-        let mut map = choose_class(&levels, class, &mut Silent).unwrap().map;
-        map.finish(options, &mut Silent).unwrap();
+        let map = drawn_once(&levels, options);
         assert!(map.is_of_poses());
 
         let finer = map.refined_to(2000, options, &mut Silent).unwrap().unwrap();
@@ -698,16 +709,10 @@ mod tests {
             *p + DVec3::new(wave[1], wave[2], wave[0]) * (0.003 * scale)
         };
         let bumpy = demo.target.with_positions(demo.target.positions().iter().map(bump).collect());
-        let full = [0, 1].map(|k| {
-            let landmarks: Vec<VertexId> = demo.landmarks.iter().map(|pair| VertexId(pair[k])).collect();
-            LandmarkedMesh::new([&demo.source, &bumpy][k], &landmarks).unwrap()
-        });
+        let full = landmarked([&demo.source, &bumpy], &demo);
         let options = &MultilevelOptions::default();
         let levels = coarse_levels(&full, 600, options.rims, &mut Silent).unwrap();
-        let search = &SearchOptions { candidates: 1, twists: 0, ..SearchOptions::default() };
-        let class = ClassSearchOptions { multilevel: options, search, choice: ClassChoice::Best };
-        let mut map = choose_class(&levels, class, &mut Silent).unwrap().map;
-        map.finish(options, &mut Silent).unwrap();
+        let map = drawn_once(&levels, options);
         assert!(map.is_of_poses() && map.is_of_one_body());
         let finer = map.refined_to(1000, options, &mut Silent).unwrap().unwrap();
         assert!(!finer.is_of_poses(), "{:?}", finer.patch_fit);

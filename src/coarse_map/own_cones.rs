@@ -223,6 +223,13 @@ struct Adding<'s, 'a> {
     is_one_body: Option<bool>,
 }
 
+/// What a round's map is searched and relaxed with.
+#[derive(Clone, Copy)]
+struct Effort {
+    search: SearchOptions,
+    relaxation: MapRelaxationOptions,
+}
+
 /// The maps that begin with own points at images guessed from distances.
 #[derive(Default)]
 struct Beginning<'a> {
@@ -262,7 +269,11 @@ impl<'a> Adding<'_, 'a> {
         let mut ends = limb_ends::pairs(self.start.full, present, self.own.ends, looking)?;
         while !ends.is_empty() && self.may_go_on(0, monitor) {
             let least = best.as_ref().map_or(WORTH * self.start.map.mean_log, OwnCones::mean_log);
-            let next = self.with_pairs(&ends, &self.own.untwisted(), monitor)?;
+            let next = self.with_pairs(
+                &ends,
+                Effort { search: self.own.untwisted(), relaxation: self.multilevel.coarse },
+                monitor,
+            )?;
             if let Some(next) = next.filter(|next| next.mean_log() < least) {
                 monitor.preview(&next.map);
                 best = Some(next);
@@ -299,11 +310,13 @@ impl<'a> Adding<'_, 'a> {
         let Beginning { strained, placed } = self.by_distances(images, least(&best), &search, monitor)?;
         seen.extend(strained);
         seen.extend(placed.as_ref().and_then(|placed| placed.map.images()));
-        best = placed.filter(|placed| placed.mean_log() < least(&best)).or(best);
+        match placed.filter(|placed| placed.mean_log() < least(&best)) {
+            Some(placed) => best = Some(placed),
+            // The next round takes the levels of the last map.
+            None => seen.extend(best.as_ref().and_then(|best| best.map.images())),
+        }
         if let Some(best) = &best {
             monitor.preview(&best.map);
-            // The next round takes the levels of the last map.
-            seen.extend(best.map.images());
         }
         let mut without_gain = usize::from(best.is_none());
         while without_gain < self.own.patience && self.may_go_on(kept, monitor) {
@@ -345,10 +358,13 @@ impl<'a> Adding<'_, 'a> {
         }
         let Some(mut last) = self.finer(&best, self.own.finer_vertices, monitor)? else { return Ok(best) };
         monitor.preview(&last.map);
-        while self.may_go_on(0, monitor) {
+        // Patches may tell that there are two bodies; their limbs are placed well enough.
+        while last.map.is_of_poses() && self.may_go_on(0, monitor) {
             let Some(images) = last.map.images() else { break };
             let points = self.own_points(&images, |_| true, monitor)?;
-            let Some(next) = self.with_pairs(&points, &self.own.drawn_once(), monitor)? else { break };
+            let Some(next) = self.with_pairs(&points, self.settled(self.own.drawn_once()), monitor)? else {
+                break;
+            };
             let Some(next) = self.finer(&next, self.own.finer_vertices, monitor)? else { break };
             if !next.map.is_of_poses() || next.mean_log() >= CREDIBLE * last.mean_log() {
                 break;
@@ -433,7 +449,7 @@ impl<'a> Adding<'_, 'a> {
         monitor: &mut dyn Monitor,
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
         let points = self.own_points(images, may, monitor)?;
-        self.with_pairs(&points, search, monitor)
+        self.with_pairs(&points, self.settled(*search), monitor)
     }
 
     /// Fresh own points, of the vertices that `may` be taken, at the given images.
@@ -448,6 +464,12 @@ impl<'a> Adding<'_, 'a> {
         pairs(self.start.full, images, &self.before, choice, placing)
     }
 
+    /// The effort of a round whose points the next round places anew.
+    fn settled(&self, search: SearchOptions) -> Effort {
+        let relaxation = MapRelaxationOptions { relative_decrease: SETTLED, ..self.multilevel.coarse };
+        Effort { search, relaxation }
+    }
+
     /// Progress, 0 to 1, where this share of the present round is done.
     fn done(&self, share: f64) -> f64 {
         let all = self.own.all_rounds();
@@ -458,7 +480,7 @@ impl<'a> Adding<'_, 'a> {
     fn with_pairs(
         &mut self,
         pairs: &[OwnPair],
-        search: &SearchOptions,
+        effort: Effort,
         monitor: &mut dyn Monitor,
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
         let Start { inputs, full, vertices, .. } = self.start;
@@ -474,12 +496,14 @@ impl<'a> Adding<'_, 'a> {
         let levels = levels_cell.get_or_init(|| levels);
         // The class is looked for in every round: close maps are not compared on finer levels as well.
         let judged = &MultilevelOptions { finer: 0, ..*multilevel };
-        let options = ClassSearchOptions { multilevel: judged, search, choice: ClassChoice::Best };
+        let options =
+            ClassSearchOptions { multilevel: judged, search: &effort.search, choice: ClassChoice::Best };
         let looking = Portion::new(monitor, placed, chosen);
         match choose_class(levels, options, &mut looking.unseen()) {
             Ok(best) => {
                 let part = &mut Portion::new(monitor, chosen, done);
-                Ok(Some(OwnCones { full: with_own, map: finished(best.map, multilevel, part)? }))
+                let relaxed = MultilevelOptions { coarse: effort.relaxation, ..*multilevel };
+                Ok(Some(OwnCones { full: with_own, map: finished(best.map, &relaxed, part)? }))
             }
             Err(CoarseMapError::Cancelled(stop)) => Err(stop),
             // There is no map with these points, but there may be one with others.
@@ -528,8 +552,7 @@ fn finished<'a>(
     options: &MultilevelOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<CoarseMap<'a>, Cancelled> {
-    let coarse = MapRelaxationOptions { relative_decrease: SETTLED, ..options.coarse };
-    match map.finish(&MultilevelOptions { coarse, ..*options }, monitor) {
+    match map.finish(options, monitor) {
         Err(MapError::Cancelled(stop)) => Err(stop),
         _ => Ok(map),
     }
