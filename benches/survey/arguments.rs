@@ -61,6 +61,7 @@ impl Arguments {
             let value = given.next().unwrap_or_else(|| panic!("{option} needs a value"));
             let number = || value.parse::<f64>().unwrap_or_else(|_| panic!("{option} {value}: not a number"));
             match option.as_str() {
+                "--data" => arguments.data = value.into(),
                 "--pairs" => arguments.pairs = value.split(',').map(str::to_owned).collect(),
                 "--variants" => arguments.variants = value.split(',').map(str::to_owned).collect(),
                 "--seeds" => arguments.seeds = number() as u64,

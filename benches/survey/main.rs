@@ -228,14 +228,14 @@ fn main() {
     let arguments = Arguments::read();
     match SURVEYS.iter().find(|survey| survey.name == arguments.table) {
         Some(survey) => {
-            if !NEED_NO_DATA.contains(&survey.name) {
+            if !NEED_NO_DATA.contains(&survey.name) && arguments.data == common::data_path() {
                 common::data_folder("the survey").expect("the data folder");
             }
             (survey.run)(&arguments);
         }
         None => {
             eprintln!(
-                "cargo xtask survey TABLE [--pairs NAME,NAME] [--seeds N] [--jobs N] [--time-limit SECONDS]"
+                "cargo xtask survey TABLE [--data FOLDER] [--pairs NAME,NAME] [--seeds N] [--jobs N] [--time-limit SECONDS]"
             );
             SURVEYS.iter().for_each(|survey| eprintln!("  {:16}{}", survey.name, survey.about));
         }

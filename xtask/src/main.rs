@@ -24,7 +24,7 @@ const USAGE: &str = "cargo xtask COMMAND
   browsers visit the page in Chromium, Firefox and WebKit, which are installed where that is possible
   compare time whole maps, wasm in a browser against native: [--runs N] [PAIR.json ...], the demos without files
   agree   compare whole maps as wasm with native ones, number by number: [PAIR.json ...], all of ../shared/data without files
-  survey  tables of many maps on the meshes of ../shared/data: TABLE [--pairs NAME,NAME] [--seeds N]; lists them without a name
+  survey  tables of many maps on the meshes of ../shared/data, or of --data FOLDER: TABLE [--pairs NAME,NAME] [--seeds N]; lists them without a name
   fuzz    read changed files by every reader: [--runs N] of each, from one [--seed S]
   torture map generated hostile geometry for [--minutes N], from one [--seed S]: the table of outcomes; --case KIND-SEED for one
   wasm    build only the wasm modules, into www/wasm/; with --names they keep the functions' names for profilers";
