@@ -97,6 +97,8 @@ impl Arguments {
                 "--own-gain" => arguments.options.own_cones.least_gain = number(),
                 "--own-finer" => arguments.options.own_cones.finer_rounds = number() as usize,
                 "--own-finer-vertices" => arguments.options.own_cones.finer_vertices = number() as usize,
+                "--own-most" => arguments.options.own_cones.most_pose_landmarks = number() as usize,
+                "--pose-mean-log" => arguments.options.multilevel.pose_mean_log = number(),
                 "--own-twists" => arguments.options.own_cones.search.twists = number() as usize,
                 "--own-candidates" => arguments.options.own_cones.search.candidates = number() as usize,
                 "--twists" => arguments.options.search.twists = number() as usize,

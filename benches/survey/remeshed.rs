@@ -37,9 +37,10 @@ pub fn targets(arguments: &Arguments) {
 /// 33, 12 and 6 landmarks.
 pub fn truth(arguments: &Arguments) {
     header();
+    let counts = if arguments.landmarks > 0 { vec![arguments.landmarks] } else { vec![33, 12, 6] };
     let mut cases: Vec<Make<'_>> = Vec::new();
     for name in arguments.names() {
-        for count in [33, 12, 6] {
+        for &count in &counts {
             for (variant, remade) in [WAYS[0], WAYS[2]] {
                 let name = name.clone();
                 cases.push(Box::new(move || {

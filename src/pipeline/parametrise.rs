@@ -55,11 +55,20 @@ pub(super) fn has_own_cones(landmarks: usize, options: &PipelineOptions) -> bool
     landmarks <= options.own_cones.most_landmarks && options.own_cones.count > 0
 }
 
+/// Whether cones of the program's own are tried with this many landmarks between two poses of one body.
+fn has_own_cones_of_poses(landmarks: usize, options: &PipelineOptions) -> bool {
+    landmarks <= options.own_cones.most_pose_landmarks && options.own_cones.count > 0
+}
+
 /// Vertices of the coarse level on which the search for the class begins.
 fn first_level(landmarks: usize, options: &PipelineOptions) -> usize {
-    let own = &options.own_cones;
-    let with_own = if has_own_cones(landmarks, options) { landmarks + own.count } else { 0 };
-    options.multilevel.coarse_vertices.max(LEAST_PER_LANDMARK * landmarks).max(PER_OWN_CONE * with_own)
+    let least = options.multilevel.coarse_vertices.max(LEAST_PER_LANDMARK * landmarks);
+    if has_own_cones(landmarks, options) { least.max(level_with_own(landmarks, options)) } else { least }
+}
+
+/// Vertices of a coarse level that has enough of them for this many landmarks and the program's own cones.
+fn level_with_own(landmarks: usize, options: &PipelineOptions) -> usize {
+    PER_OWN_CONE * (landmarks + options.own_cones.count)
 }
 
 /// An attempt at a map: the size of its coarse levels, and the options of its search.
@@ -199,6 +208,13 @@ fn solve(
             solve_unrelaxed(&sides, &layout, &options.multilevel, monitor)?;
         return Ok(Solved { layout, search, surface, embeddings, meshes: None });
     }
+    if !has_own
+        && has_own_cones_of_poses(input.landmarks.len(), options)
+        && map.is_of_poses()
+        && let Some(solved) = turned_back(input, full, &map, attempt, options, monitor)?
+    {
+        return Ok(solved);
+    }
     if has_own {
         monitor.enter(Stage::OwnCones);
     }
@@ -206,7 +222,7 @@ fn solve(
     let ends = if options.class == ClassChoice::Best { options.own_cones.ends } else { 0 };
     let own_options = OwnConeOptions { ends, ..options.own_cones };
     let (meshes, levels) = (Rounds::new(&own_options), Rounds::new(&own_options));
-    let start = Start { inputs: [input.source, input.target], full, map: &map, vertices };
+    let start = Start { inputs: [input.source, input.target], full, map: &map, vertices, is_one_body: false };
     let owners = Owners { meshes: &meshes, levels: &levels };
     let adding = &mut Portion::new(monitor, if has_own { 0.0 } else { SEARCHED }, 1.0);
     let own = own_cones::add(start, owners, &options.multilevel, &own_options, adding)?;
@@ -225,6 +241,65 @@ fn solve(
     let surface = map.surface.clone();
     let embeddings = solve_fine(map, &options.multilevel, monitor)?;
     Ok(Solved { layout, search, surface, embeddings, meshes: None })
+}
+
+/// With many landmarks another map between two poses of one body is taken where its mean log density on a finer level is below this many
+/// times that of the first one. Own cones that turned a limb back brought it to .49 to .80; where nothing is turned they brought it to .91
+/// and more, and the map no nearer to the truth.
+const TURNED: f64 = 0.9;
+
+/// The map between two poses of one body with many landmarks where that of coarse levels with more vertices, or own cones on those, turn a
+/// limb back that is turned between its landmarks; `None` where nothing is turned, or where there are two bodies.
+fn turned_back(
+    input: MapInput<'_>,
+    full: &[LandmarkedMesh; 2],
+    map: &CoarseMap<'_>,
+    attempt: Attempt,
+    options: &PipelineOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Option<Solved>, PipelineError> {
+    let PipelineOptions { multilevel, own_cones: own_options, .. } = options;
+    let looking = &mut Portion::new(monitor, SEARCHED, SEARCHED);
+    if options.class != ClassChoice::Best || looking.wants_result() {
+        return Ok(None);
+    }
+    let judged = own_cones::judged_on_finer_level(map, own_options, multilevel, looking)?;
+    let Some(mut least) = judged.map(|judged| TURNED * judged) else { return Ok(None) };
+    // More cones need levels with more vertices, and their maps are compared with one on such levels.
+    let vertices = attempt.vertices.max(level_with_own(input.landmarks.len(), options));
+    let sides = coarse_levels(full, vertices, options.multilevel.rims, looking)?;
+    let Coarse { layout, search, map } = match coarse(input, &sides, options, &attempt.search, looking) {
+        Ok(found) => found,
+        Err(PipelineError::Layout(LayoutError::NoMap { .. })) => return Ok(None),
+        Err(error) => return Err(error),
+    };
+    if !map.is_of_poses() {
+        return Ok(None);
+    }
+    let judged = own_cones::judged_on_finer_level(&map, own_options, multilevel, looking)?;
+    let is_better = judged.is_some_and(|judged| judged < least);
+    if let Some(judged) = judged.filter(|_| is_better) {
+        least = TURNED * judged;
+    }
+    let (meshes, levels) = (Rounds::new(own_options), Rounds::new(own_options));
+    let start = Start { inputs: [input.source, input.target], full, map: &map, vertices, is_one_body: true };
+    let owners = Owners { meshes: &meshes, levels: &levels };
+    let adding = &mut Portion::new(monitor, SEARCHED, 1.0);
+    if let Some(own) = own_cones::add(start, owners, multilevel, own_options, adding)?
+        && own.judged_on_finer_level(own_options, multilevel, adding)?.is_some_and(|judged| judged < least)
+    {
+        monitor.enter(Stage::Relaxation);
+        if let Some(Refined { surface, embeddings, full }) = own.refined(multilevel, monitor)? {
+            return Ok(Some(Solved { layout, search, surface, embeddings, meshes: Some(full) }));
+        }
+    }
+    if !is_better {
+        return Ok(None);
+    }
+    monitor.enter(Stage::Relaxation);
+    let surface = map.surface.clone();
+    let embeddings = solve_fine(map, multilevel, monitor)?;
+    Ok(Some(Solved { layout, search, surface, embeddings, meshes: None }))
 }
 
 /// A coarse map with its layout.
