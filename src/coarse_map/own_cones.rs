@@ -227,10 +227,9 @@ pub fn judged_on_finer_level(
 /// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
 ///
 /// Ends of limbs without a landmark are added. Where there are few landmarks, and between two poses of one body, there are rounds of points
-/// far from all others as well: they
-/// begin with images under the map and, for the case that it is of a wrong class, with images guessed from distances (`distance_guess`). Every further
-/// round takes fresh points at their images under that of the maps so far which distorts least around them (`best_images`). Between poses of
-/// one body the map is then refined, and gives the images of the points of further rounds.
+/// far from all others as well: they begin with images under the map and, for the case that it is of a wrong class, with images guessed from
+/// distances (`distance_guess`). Every further round takes fresh points at their images under that of the maps so far which distorts least
+/// around them (`best_images`). Between poses with few landmarks the map is then refined, and gives the images of the points of further rounds.
 ///
 /// # Errors
 /// Cancellation only.

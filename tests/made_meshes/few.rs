@@ -37,6 +37,26 @@ fn small_meshes_take_own_cones_in_several_rounds() {
     assert!(report.certificate.is_some_and(|c| c.bijective));
 }
 
+/// Two poses of a hand with all landmarks of the demo, more than where own cones are added between different bodies: the map is looked for
+/// again, on levels with more vertices and with own cones.
+#[test]
+fn a_second_look_at_poses_with_many_landmarks_lowers_the_distortion() {
+    let demo = demo::build("hands").unwrap();
+    assert!(demo.landmarks.len() > OwnConeOptions::default().most_landmarks);
+    let [source, target] = [&demo.source, &demo.target];
+    let landmarks = Landmarks::from_vertices(source, target, &demo.landmarks).unwrap();
+    let own = OwnConeOptions::default();
+    let [with, without] = [own.most_pose_landmarks, own.most_landmarks].map(|most_pose_landmarks| {
+        let own_cones = OwnConeOptions { most_pose_landmarks, ..own };
+        let options = PipelineOptions { own_cones, ..PipelineOptions::default() };
+        run(MapInput::new(source, target, &landmarks), &options, &mut Silent).unwrap().report
+    });
+    assert_eq!(without.own_landmarks, 0);
+    assert!(with.certificate.as_ref().is_some_and(|c| c.bijective));
+    let [mean_log, alone] = [with, without].map(|report| report.distortion.mean_log);
+    assert!(mean_log < 0.85 * alone, "{mean_log} {alone}");
+}
+
 /// A horse and a cat with all landmarks of the demo but that at the tip of the tail.
 #[test]
 fn a_tail_without_a_landmark_goes_to_a_tail() {
