@@ -63,8 +63,8 @@ pub struct CoarseMap<'a> {
 /// the fit allows for. Chosen by hand.
 const RIGHT_SCALE: f64 = 0.01;
 
-/// Patches of two poses of one body fit better than this, .27 to .43 on a cat and two horses, also where a body was remeshed; those of a cat
-/// and a lion .04 to .05.
+/// Patches of two poses of one body fit better than this: .27 to .43 on a cat and two horses, .23 to .58 on people, also where a body was
+/// remeshed; those of a cat and a lion .02 to .05.
 const ONE_BODY: f64 = 0.07;
 
 /// Makes the map of two coarse levels from a layout drawn on them, and relaxes it by `options.judge`.

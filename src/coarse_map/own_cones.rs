@@ -250,10 +250,8 @@ pub fn add<'a>(
     let own = if start.is_one_body { of_poses } else { own };
     let mut adding =
         Adding { start, multilevel, own, cells: owners.cells(), before: Vec::new(), is_one_body };
-    if full[0].landmarks.len() <= own.most_landmarks {
+    if start.is_one_body || full[0].landmarks.len() <= own.most_landmarks {
         adding.far_points(&images, monitor)
-    } else if start.is_one_body {
-        adding.far_points_of_poses(&images, monitor)
     } else {
         adding.at_limb_ends(&images, monitor)
     }
@@ -338,7 +336,8 @@ impl<'a> Adding<'_, 'a> {
         Ok(best)
     }
 
-    /// The best of the maps of rounds with points far from all others; `None` where none is better than the start.
+    /// The best of the maps of rounds with points far from all others; `None` where none is better than the start, or where the first rounds
+    /// give little hope of that ([`HOPEFUL`]).
     fn far_points(
         &mut self,
         images: &LevelImages,
@@ -348,28 +347,15 @@ impl<'a> Adding<'_, 'a> {
             return Ok(None);
         }
         let begun = self.first_rounds(images, monitor)?;
+        if self.start.is_one_body && self.least(&begun.best) >= HOPEFUL * self.start.map.mean_log {
+            return Ok(None);
+        }
         match self.further_rounds(begun, monitor)? {
             Some(best) if best.map.is_of_poses() && self.is_one_body != Some(false) => {
                 Ok(Some(self.by_finer_levels(best, monitor)?))
             }
             best => Ok(best),
         }
-    }
-
-    /// The same between two poses of one body with many landmarks; `None` where the first rounds give little hope ([`HOPEFUL`]).
-    fn far_points_of_poses(
-        &mut self,
-        images: &LevelImages,
-        monitor: &mut dyn Monitor,
-    ) -> Result<Option<OwnCones<'a>>, Cancelled> {
-        if !self.may_go_on(self.own.finer_rounds, monitor) {
-            return Ok(None);
-        }
-        let begun = self.first_rounds(images, monitor)?;
-        if self.least(&begun.best) >= HOPEFUL * self.start.map.mean_log {
-            return Ok(None);
-        }
-        self.further_rounds(begun, monitor)
     }
 
     /// The mean log density of the best map so far, or of the start.
@@ -611,7 +597,7 @@ impl<'a> Adding<'_, 'a> {
 /// the cones, by 1 to 6 %. The next pairs of animals have 1.08 and more.
 const WORTH: f64 = 1.03;
 
-/// With many landmarks there are further rounds where the first ones brought the mean log density below this many times that of the start.
+/// Between poses with many landmarks there are further rounds where the first ones brought the mean log density below this many times that of the start.
 /// Where a limb was turned they brought it to .92 and less; on a cat and two horses, whose limbs are right, to .97 to 1.
 const HOPEFUL: f64 = 0.96;
 

@@ -267,7 +267,7 @@ fn turned_back(
     let Some(mut least) = judged.map(|judged| TURNED * judged) else { return Ok(None) };
     // More cones need levels with more vertices, and their maps are compared with one on such levels.
     let vertices = attempt.vertices.max(level_with_own(input.landmarks.len(), options));
-    let sides = coarse_levels(full, vertices, options.multilevel.rims, looking)?;
+    let sides = coarse_levels(full, vertices, multilevel.rims, looking)?;
     let Coarse { layout, search, map } = match coarse(input, &sides, options, &attempt.search, looking) {
         Ok(found) => found,
         Err(PipelineError::Layout(LayoutError::NoMap { .. })) => return Ok(None),
@@ -277,8 +277,8 @@ fn turned_back(
         return Ok(None);
     }
     let judged = own_cones::judged_on_finer_level(&map, own_options, multilevel, looking)?;
-    let is_better = judged.is_some_and(|judged| judged < least);
-    if let Some(judged) = judged.filter(|_| is_better) {
+    let better = judged.filter(|judged| *judged < least);
+    if let Some(judged) = better {
         least = TURNED * judged;
     }
     let (meshes, levels) = (Rounds::new(own_options), Rounds::new(own_options));
@@ -293,7 +293,7 @@ fn turned_back(
             return Ok(Some(Solved { layout, search, surface, embeddings, meshes: Some(full) }));
         }
     }
-    if !is_better {
+    if better.is_none() {
         return Ok(None);
     }
     monitor.enter(Stage::Relaxation);
