@@ -47,3 +47,6 @@ export const USUAL_SCHEME: Scheme = 'inversive';
 
 /** The most landmarks to which the program adds cones of its own; compared with the core's by the same test. */
 export const MOST_LANDMARKS_WITH_OWN_CONES = 16;
+
+/** The same between two poses of one body; compared with the core's by the same test. */
+export const MOST_POSE_LANDMARKS_WITH_OWN_CONES = 40;

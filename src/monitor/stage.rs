@@ -21,7 +21,7 @@ pub enum Stage {
     BaseDomain,
     /// Ways to draw the base domain are judged by the coarse maps that they lead to.
     ClassSearch,
-    /// Cones of the program's own are added where the landmarks are few.
+    /// Cones of the program's own are added, where the landmarks are few or the meshes two poses of one body.
     OwnCones,
     /// The map is relaxed, from the coarse levels to the full meshes.
     Relaxation,

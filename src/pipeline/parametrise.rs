@@ -56,7 +56,7 @@ pub(super) fn has_own_cones(landmarks: usize, options: &PipelineOptions) -> bool
 }
 
 /// Whether cones of the program's own are tried with this many landmarks between two poses of one body.
-fn has_own_cones_of_poses(landmarks: usize, options: &PipelineOptions) -> bool {
+pub(super) fn has_own_cones_of_poses(landmarks: usize, options: &PipelineOptions) -> bool {
     landmarks <= options.own_cones.most_pose_landmarks && options.own_cones.count > 0
 }
 
@@ -174,6 +174,14 @@ struct Solved {
     meshes: Option<[LandmarkedMesh; 2]>,
 }
 
+impl Solved {
+    /// The solution whose meshes have cones of the program's own.
+    fn with_own(refined: Refined, layout: BaseLayout, search: SearchReport) -> Self {
+        let Refined { surface, embeddings, full } = refined;
+        Self { layout, search, surface, embeddings, meshes: Some(full) }
+    }
+}
+
 /// Progress of the search for the class before ends of limbs are looked at. Chosen by hand, for display only.
 const SEARCHED: f64 = 0.8;
 
@@ -234,19 +242,20 @@ fn solve(
                 // The runner-up has no cones at ends of limbs.
                 search.rival = search.rival.map(|rival| worse * rival);
             }
-            let Refined { surface, embeddings, full } = refined;
-            return Ok(Solved { layout, search, surface, embeddings, meshes: Some(full) });
+            return Ok(Solved::with_own(refined, layout, search));
         }
     }
-    let surface = map.surface.clone();
-    let embeddings = solve_fine(map, &options.multilevel, monitor)?;
-    Ok(Solved { layout, search, surface, embeddings, meshes: None })
+    Coarse { layout, search, map }.solved(options, monitor)
 }
 
 /// With many landmarks another map between two poses of one body is taken where its mean log density on a finer level is below this many
 /// times that of the first one. Own cones that turned a limb back brought it to .49 to .80; where nothing is turned they brought it to .91
 /// and more, and the map no nearer to the truth.
 const TURNED: f64 = 0.9;
+
+/// Progress of the second look at two poses after the first map was judged, after the search on other levels, and after its map was
+/// judged. Measured on two pairs with 33 landmarks, for display only.
+const LOOKED: [f64; 3] = [0.1, 0.3, 0.4];
 
 /// The map between two poses of one body with many landmarks where that of coarse levels with more vertices, or own cones on those, turn a
 /// limb back that is turned between its landmarks; `None` where nothing is turned, or where there are two bodies.
@@ -259,47 +268,49 @@ fn turned_back(
     monitor: &mut dyn Monitor,
 ) -> Result<Option<Solved>, PipelineError> {
     let PipelineOptions { multilevel, own_cones: own_options, .. } = options;
-    let looking = &mut Portion::new(monitor, SEARCHED, SEARCHED);
-    if options.class != ClassChoice::Best || looking.wants_result() {
+    if options.class != ClassChoice::Best || monitor.wants_result() {
         return Ok(None);
     }
-    let judged = own_cones::judged_on_finer_level(map, own_options, multilevel, looking)?;
+    monitor.enter(Stage::OwnCones);
+    let judging = &mut Portion::new(monitor, 0.0, LOOKED[0]);
+    let judged = own_cones::judged_on_finer_level(map, own_options, multilevel, judging)?;
     let Some(mut least) = judged.map(|judged| TURNED * judged) else { return Ok(None) };
     // More cones need levels with more vertices, and their maps are compared with one on such levels.
     let vertices = attempt.vertices.max(level_with_own(input.landmarks.len(), options));
-    let sides = coarse_levels(full, vertices, multilevel.rims, looking)?;
-    let Coarse { layout, search, map } = match coarse(input, &sides, options, &attempt.search, looking) {
+    let searching = &mut Portion::new(monitor, LOOKED[0], LOOKED[1]).unseen();
+    let sides = coarse_levels(full, vertices, multilevel.rims, &mut Portion::new(searching, 0.0, 0.0))?;
+    let found = match coarse(input, &sides, options, &attempt.search, searching) {
         Ok(found) => found,
         Err(PipelineError::Layout(LayoutError::NoMap { .. })) => return Ok(None),
         Err(error) => return Err(error),
     };
+    let map = &found.map;
     if !map.is_of_poses() {
         return Ok(None);
     }
-    let judged = own_cones::judged_on_finer_level(&map, own_options, multilevel, looking)?;
+    let judging = &mut Portion::new(monitor, LOOKED[1], LOOKED[2]);
+    let judged = own_cones::judged_on_finer_level(map, own_options, multilevel, judging)?;
     let better = judged.filter(|judged| *judged < least);
     if let Some(judged) = better {
         least = TURNED * judged;
     }
     let (meshes, levels) = (Rounds::new(own_options), Rounds::new(own_options));
-    let start = Start { inputs: [input.source, input.target], full, map: &map, vertices, is_one_body: true };
+    let start = Start { inputs: [input.source, input.target], full, map, vertices, is_one_body: true };
     let owners = Owners { meshes: &meshes, levels: &levels };
-    let adding = &mut Portion::new(monitor, SEARCHED, 1.0);
+    let adding = &mut Portion::new(monitor, LOOKED[2], 1.0);
     if let Some(own) = own_cones::add(start, owners, multilevel, own_options, adding)?
         && own.judged_on_finer_level(own_options, multilevel, adding)?.is_some_and(|judged| judged < least)
     {
         monitor.enter(Stage::Relaxation);
-        if let Some(Refined { surface, embeddings, full }) = own.refined(multilevel, monitor)? {
-            return Ok(Some(Solved { layout, search, surface, embeddings, meshes: Some(full) }));
+        if let Some(refined) = own.refined(multilevel, monitor)? {
+            return Ok(Some(Solved::with_own(refined, found.layout, found.search)));
         }
     }
     if better.is_none() {
         return Ok(None);
     }
     monitor.enter(Stage::Relaxation);
-    let surface = map.surface.clone();
-    let embeddings = solve_fine(map, multilevel, monitor)?;
-    Ok(Some(Solved { layout, search, surface, embeddings, meshes: None }))
+    found.solved(options, monitor).map(Some)
 }
 
 /// A coarse map with its layout.
@@ -307,6 +318,16 @@ struct Coarse<'a> {
     layout: BaseLayout,
     search: SearchReport,
     map: CoarseMap<'a>,
+}
+
+impl Coarse<'_> {
+    /// The coarse map relaxed up to the full meshes.
+    fn solved(self, options: &PipelineOptions, monitor: &mut dyn Monitor) -> Result<Solved, PipelineError> {
+        let Self { layout, search, map } = self;
+        let surface = map.surface.clone();
+        let embeddings = solve_fine(map, &options.multilevel, monitor)?;
+        Ok(Solved { layout, search, surface, embeddings, meshes: None })
+    }
 }
 
 /// The coarse map of least mean log density among the classes of layouts that are tried.

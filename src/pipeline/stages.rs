@@ -1,8 +1,16 @@
 //! The stages of a run, in their order, with their usual times.
 
-use super::parametrise::has_own_cones;
+use super::parametrise::{has_own_cones, has_own_cones_of_poses};
 use super::{Base, Method, PipelineOptions};
 use crate::monitor::{PlannedStage, Stage};
+
+/// When a run adds cones of its own in a stage of their own.
+#[derive(Clone, Copy)]
+enum AddsCones {
+    Never,
+    BetweenPoses,
+    Always,
+}
 
 impl PipelineOptions {
     /// The stages that a run with these options and this many landmarks passes, in their order: the two of the caller that reads the
@@ -14,9 +22,17 @@ impl PipelineOptions {
         let planned = |list: &[(Stage, f64)]| {
             list.iter().map(|&(stage, time)| PlannedStage { stage, time }).collect::<Vec<_>>()
         };
-        let adds_cones = has_own_cones(landmarks, self) && self.relaxation == super::Relaxation::Full;
+        let adds_cones = if self.relaxation != super::Relaxation::Full {
+            AddsCones::Never
+        } else if has_own_cones(landmarks, self) {
+            AddsCones::Always
+        } else if has_own_cones_of_poses(landmarks, self) {
+            AddsCones::BetweenPoses
+        } else {
+            AddsCones::Never
+        };
         match (self.method, adds_cones) {
-            (Method::Relaxed, false) => planned(&[
+            (Method::Relaxed, AddsCones::Never) => planned(&[
                 (Landmarks, 1.0),
                 (Findings, 5.0),
                 (ClassSearch, if self.base == Base::Qem { 5.0 } else { 39.0 }),
@@ -27,7 +43,20 @@ impl PipelineOptions {
                 (TargetConeMetric, 1.5),
                 (Transfer, 1.0),
             ]),
-            (Method::Relaxed, true) => planned(&[
+            // Whether there are poses is not known yet: shares lie between those with and without.
+            (Method::Relaxed, AddsCones::BetweenPoses) => planned(&[
+                (Landmarks, 0.8),
+                (Findings, 4.0),
+                (ClassSearch, if self.base == Base::Qem { 4.0 } else { 29.0 }),
+                (OwnCones, 30.0),
+                (Relaxation, 33.0),
+                (Certificate, 0.2),
+                (Composition, 0.6),
+                (SourceConeMetric, 1.0),
+                (TargetConeMetric, 1.0),
+                (Transfer, 0.8),
+            ]),
+            (Method::Relaxed, AddsCones::Always) => planned(&[
                 (Landmarks, 0.3),
                 (Findings, 1.6),
                 (ClassSearch, if self.base == Base::Qem { 2.0 } else { 14.0 }),

@@ -29,6 +29,8 @@ pub struct CoreValues {
     largest_radius: f64,
     /// The most landmarks to which the program adds cones of its own.
     most_landmarks_with_own_cones: usize,
+    /// The same between two poses of one body.
+    most_pose_landmarks_with_own_cones: usize,
     /// The most bytes of a mesh file.
     largest_file: usize,
     /// The axis that points up.
@@ -62,6 +64,7 @@ pub fn core_values() -> Result<String, JsValue> {
         most_pairs: MAX_PAIRS,
         largest_radius: MAX_RADIUS,
         most_landmarks_with_own_cones: OwnConeOptions::default().most_landmarks,
+        most_pose_landmarks_with_own_cones: OwnConeOptions::default().most_pose_landmarks,
         largest_file: MAX_BYTES,
         up: UpAxis::default(),
         every_repair: RepairOptions::everything(),

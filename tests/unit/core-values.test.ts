@@ -4,7 +4,12 @@ import { LARGEST_FILE } from '../../www/app/open.ts';
 import { Desk, SIZES } from '../../www/bring/desk.ts';
 import { MAX_RADIUS, PAIRS_TO_TURN } from '../../www/landmarks.ts';
 import { MAP_ENDING } from '../../www/map-files.ts';
-import { MOST_LANDMARKS_WITH_OWN_CONES, USUAL_OPTIONS, USUAL_SCHEME } from '../../www/options.ts';
+import {
+  MOST_LANDMARKS_WITH_OWN_CONES,
+  MOST_POSE_LANDMARKS_WITH_OWN_CONES,
+  USUAL_OPTIONS,
+  USUAL_SCHEME,
+} from '../../www/options.ts';
 import { MAP_EXPORTS } from '../../www/panels/exports.ts';
 import { MOST_PAIRS } from '../../www/send/schema.ts';
 import { MIN_PAIRS } from '../../www/store/readiness.ts';
@@ -26,6 +31,7 @@ test('what is chosen of a run where nobody chooses, and where the program adds c
   expect(NO_WORK.options).toEqual(core.choices);
   expect(USUAL_SCHEME).toBe(core.scheme);
   expect(MOST_LANDMARKS_WITH_OWN_CONES).toBe(core.mostLandmarksWithOwnCones);
+  expect(MOST_POSE_LANDMARKS_WITH_OWN_CONES).toBe(core.mostPoseLandmarksWithOwnCones);
 });
 
 test('how a mesh stands, what of it may be repaired, and how large its file may be', () => {

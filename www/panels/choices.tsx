@@ -1,6 +1,14 @@
 /** The options of how the map is made, which most users leave as they are. */
 import type { VNode } from 'preact';
-import { BASES, BORDERS, CLASSES, CONES, METHODS, MOST_LANDMARKS_WITH_OWN_CONES } from '../options.ts';
+import {
+  BASES,
+  BORDERS,
+  CLASSES,
+  CONES,
+  METHODS,
+  MOST_LANDMARKS_WITH_OWN_CONES,
+  MOST_POSE_LANDMARKS_WITH_OWN_CONES,
+} from '../options.ts';
 import type { RunOptions } from '../report.ts';
 import type { PartProps } from './actions.ts';
 import type { Choice } from './controls.tsx';
@@ -39,7 +47,7 @@ export function Choices({ state, actions }: Pick<PartProps, 'state' | 'actions'>
       />
       <Select
         label="Own cones"
-        title={`Points that the program adds as cones of its own where there are at most ${MOST_LANDMARKS_WITH_OWN_CONES} landmarks; with 0 also none at ends of limbs without a landmark`}
+        title={`Points that the program adds as cones of its own where there are at most ${MOST_LANDMARKS_WITH_OWN_CONES} landmarks, or ${MOST_POSE_LANDMARKS_WITH_OWN_CONES} between two poses of one body; with 0 also none at ends of limbs without a landmark`}
         value={options.ownCones === null ? 'usual' : String(options.ownCones)}
         choices={OWN_CONES}
         disabled={running || unrelaxed}
