@@ -96,6 +96,9 @@ const ORDERS: f64 = 0.05;
 /// the face of 385 lies right on 383, and nothing else changes on the pairs among four animals of SHREC07; 0.05 was taken after another
 /// pair (392-397) had been seen.
 const ROLES: f64 = 0.05;
+/// The amount that a pair adds to the score whose tips are both far more like other tips. Of ten matches of a dog in two poses four had the
+/// nose at an ear, by up to 0.09.
+const CROSSED: f64 = 0.1;
 
 impl Candidate {
     /// The candidate of an assignment with its judged map.
@@ -146,6 +149,7 @@ pub(super) fn score(assignment: &Assignment, judged: &Judged) -> f64 {
         + UNMATCHED * unmatched
         + ORDERS * (1.0 - assignment.agreement)
         + roles(assignment)
+        + CROSSED * assignment.crossed as f64
 }
 
 /// The part of the score for noses that go to ears, and ears to ears.
@@ -176,6 +180,7 @@ impl Candidate {
                 keeps_sides: true,
                 twins: 0,
                 mixed: 0,
+                crossed: 0,
                 between: None,
             },
         }

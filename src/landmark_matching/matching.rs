@@ -9,6 +9,7 @@ use super::candidates::{cheapest, chosen};
 use super::heads::with_twins;
 use super::input::MatchInput;
 use super::judge::{Judged, judge};
+use super::likeness::uncrossed;
 use super::moves::moves;
 use super::options::MatchOptions;
 use super::parting::difference;
@@ -208,7 +209,8 @@ impl Search<'_> {
         let mut left = most;
         while let Some(best) = self.found.first().map(|best| best.assignment.clone()) {
             let mut better = false;
-            for change in with_twins(tables, &best).into_iter().chain(moves(tables, &best)) {
+            let of_heads = uncrossed(tables, &best).into_iter().chain(with_twins(tables, &best));
+            for change in of_heads.chain(moves(tables, &best)) {
                 if left == 0 || better || monitor.wants_result() {
                     break;
                 }

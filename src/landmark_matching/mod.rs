@@ -9,6 +9,7 @@ mod heads;
 mod input;
 mod inversions;
 mod judge;
+mod likeness;
 mod matching;
 mod moves;
 mod options;

@@ -8,7 +8,7 @@ use super::search::{Assignment, Tables};
 use crate::landmarks::{LEAST_LANDMARKS, MeshSide};
 
 /// A tip may be replaced by one of the same body within this distance, in units of the root of the area. Chosen by hand.
-const NEAR: f64 = 0.45;
+pub(super) const NEAR: f64 = 0.45;
 /// Small tips are paired where their mean misfit (log ratio of distances) is below this. Chosen by hand.
 const FITS: f64 = 0.25;
 

@@ -28,6 +28,8 @@ pub(super) struct Assignment {
     pub(super) twins: usize,
     /// Number of tips on the middle line of one body that go to one of twins of the other, as a nose to an ear.
     pub(super) mixed: usize,
+    /// Number of pairs whose tips are both far more like other tips.
+    pub(super) crossed: usize,
     /// A further pair, of vertices of both levels that are no marks.
     pub(super) between: Option<[VertexId; 2]>,
 }
@@ -61,13 +63,13 @@ pub(super) struct Tables<'a> {
     /// The roles of the tips of each body.
     pub(super) roles: [Roles; 2],
     /// For each mark of each body the one that stands for its place.
-    places: [Vec<usize>; 2],
+    pub(super) places: [Vec<usize>; 2],
     /// The reflections of the places of each body.
     place_reflections: [Vec<Reflection>; 2],
     /// The logarithm of the distance between each two marks of each body.
     log_distance: [Vec<Vec<f64>>; 2],
     /// The difference of descriptors between each mark of the source and each mark of the target.
-    difference: Vec<Vec<f64>>,
+    pub(super) difference: Vec<Vec<f64>>,
 }
 
 impl<'a> Tables<'a> {
@@ -116,8 +118,8 @@ impl<'a> Tables<'a> {
     /// The assignment with these pairs, the given ones first, and its costs.
     pub(super) fn assignment(&self, pairs: &[[usize; 2]]) -> Assignment {
         let mut partial = Partial::of_given(self);
-        let given = self.shapes[0].given;
-        pairs[given..].iter().for_each(|&pair| partial.join(self, pair));
+        let pairs = self.with_like_tips(pairs);
+        pairs[self.shapes[0].given..].iter().for_each(|&pair| partial.join(self, pair));
         for side in MeshSide::BOTH {
             for &mark in &self.main[side] {
                 if !partial.has(side, mark) {
@@ -200,6 +202,7 @@ impl Partial {
         Assignment {
             twins,
             mixed,
+            crossed: tables.crossed(&self.pairs),
             cost: self.cost(tables.shapes[0].given),
             unmatched_cost: UNMATCHED * self.unmatched_cost,
             agreement: 1.0 - orders(tables.shapes, &clear).reversed,
