@@ -123,6 +123,9 @@ pub struct VerdictLimits {
     pub sure_score: f64,
     /// Score from which on one that does not take left and right of one body to those of the other is doubtful.
     pub sure_score_without_sides: f64,
+    /// A candidate that leads all rivals by this is judged as one that takes left and right of one body to those of the other: the rivals
+    /// have them exchanged.
+    pub clear_lead: f64,
     /// The amount by which given pairs, however many, raise the score that is good enough: they settle which limb is which, but not how the
     /// map fits.
     pub with_given: f64,
@@ -153,6 +156,7 @@ impl Default for VerdictLimits {
         Self {
             sure_score: 0.57,
             sure_score_without_sides: 0.5,
+            clear_lead: 0.3,
             with_given: 0.065,
             unknown_score: 1.05,
             agreement: 0.55,

@@ -109,11 +109,12 @@ pub(super) fn verdict(
     let parts = |c: &&Candidate| c.difference.as_ref().is_some_and(|d| d.share > limits.parting);
     let number = candidates.iter().position(|candidate| parts(&candidate));
     let rival = number.map(|number| &candidates[number]);
-    let near = rival.is_some_and(|rival| rival.score < best.score + limits.margin);
+    let leads_by = |lead: f64| rival.is_some_and(|rival| rival.score >= best.score + lead);
+    let near = rival.is_some() && !leads_by(limits.margin);
     let clear = best.pairs.iter().filter(|pair| pair.origin != PairOrigin::Between).count();
     // A given pair settles a doubt that came of the score alone. More of them say no more about the fit.
     let settled = if input.given.is_empty() { 0.0 } else { limits.with_given };
-    let scores_well = if best.assignment.keeps_sides {
+    let scores_well = if best.assignment.keeps_sides || leads_by(limits.clear_lead) {
         best.score_without_remoteness() < limits.sure_score + settled
     } else {
         best.score < limits.sure_score_without_sides + settled
