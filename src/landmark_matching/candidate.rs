@@ -64,7 +64,7 @@ pub struct Candidate {
     /// Mean log density of the coarse map; 0 for an isometry.
     pub mean_log: f64,
     /// Mean difference between a point's mean distance to its surface and its image's mean distance to its own, in units of the root of
-    /// the area.
+    /// the area, with both bodies scaled so that these distances have the same mean.
     pub remoteness: f64,
     /// Mean difference between a point's height above its smoothed surface and its image's above its own, in units of the root of the
     /// area.

@@ -16,7 +16,8 @@ use typed_index_collections::TiSlice;
 pub(super) struct Judged {
     /// Mean log density of the map; 0 for an isometry.
     pub(super) mean_log: f64,
-    /// Mean difference of a point's and its image's mean distance to their surfaces, in units of the root of the area.
+    /// Mean difference of a point's and its image's mean distance to their surfaces, in units of the root of the area, with both bodies
+    /// scaled so that these distances have the same mean: a stout body has short limbs for its area.
     pub(super) remoteness: f64,
     /// Mean difference of a point's and its image's height above their smoothed surfaces, in units of the root of the area.
     pub(super) relief: f64,
@@ -70,21 +71,35 @@ pub(super) fn judge(
 /// A coarse map with its measures; `None` where a vertex has no image.
 fn measured(shapes: [&Shape; 2], full: &[LandmarkedMesh; 2], map: &CoarseMap<'_>) -> Option<Judged> {
     let images = map.images()?;
-    let difference = |of: Field| mean_difference(shapes, of, full, &images);
-    let [remoteness, relief] = [difference(|shape| &shape.remoteness), difference(|shape| &shape.relief)];
+    let means = shapes.map(|shape| shape.mean_remoteness);
+    let common = (means[0] * means[1]).sqrt();
+    let remoteness = Field { of: |shape| &shape.remoteness, scales: means.map(|mean| common / mean) };
+    let relief = Field { of: |shape| &shape.relief, scales: [1.0; 2] };
+    let [remoteness, relief] =
+        [remoteness, relief].map(|field| mean_difference(shapes, field, full, &images));
     Some(Judged { mean_log: map.mean_log, remoteness, relief, images })
 }
 
-/// Values at the vertices of a body's level.
-type Field = fn(&Shape) -> &TiSlice<VertexId, f64>;
+/// Values at the vertices of each body's level, to be scaled by these factors.
+#[derive(Clone, Copy)]
+struct Field {
+    of: fn(&Shape) -> &TiSlice<VertexId, f64>,
+    scales: [f64; 2],
+}
 
 /// Mean difference of a field's value at a point of the source and at its image on the target.
-fn mean_difference(shapes: [&Shape; 2], of: Field, full: &[LandmarkedMesh; 2], images: &LevelImages) -> f64 {
+fn mean_difference(
+    shapes: [&Shape; 2],
+    field: Field,
+    full: &[LandmarkedMesh; 2],
+    images: &LevelImages,
+) -> f64 {
     let at = |side: MeshSide, v: VertexId| {
         let SurfacePoint { face, barycentric } =
             full[side].refined.vertex_origin[images.levels[side].vertices[v]];
         let corners = shapes[side].level.mesh.triangles()[face];
-        interpolated(corners.map(|corner| of(shapes[side])[corner]), barycentric)
+        let values = (field.of)(shapes[side]);
+        field.scales[side] * interpolated(corners.map(|corner| values[corner]), barycentric)
     };
     let [source, target] = &images.levels;
     let areas = source.mesh.vertex_areas();

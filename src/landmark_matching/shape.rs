@@ -45,6 +45,8 @@ pub(super) struct Shape {
     pub(super) areas: TiVec<VertexId, f64>,
     /// Mean distance of each vertex to the whole surface.
     pub(super) remoteness: TiVec<VertexId, f64>,
+    /// The mean of that over the surface.
+    pub(super) mean_remoteness: f64,
     /// Height of each vertex above the smoothed surface.
     pub(super) relief: TiVec<VertexId, f64>,
     /// The given landmarks in their order, then the tips, the most persistent first.
@@ -90,13 +92,25 @@ impl Shape {
         let areas = level.mesh.vertex_areas();
         let remoteness =
             remoteness(&level.mesh, &areas, options.samples, &mut Portion::new(monitor, 0.1, 0.9))?;
+        let sum: f64 = areas.iter().zip(&remoteness).map(|(area, mean)| area * mean).sum();
+        let mean_remoteness = sum / areas.iter().sum::<f64>();
         let relief = relief(&level.mesh);
         let held: Vec<VertexId> = level.numbers(given).collect();
         let tips = peaks(&level.mesh, &remoteness, options.least_persistence);
         let fields: Vec<_> = held.iter().map(|&v| distances(&level.mesh, &[v])).collect();
         let may_mark = may_mark.map(|may| level.vertices.iter().map(|&v| may[v]).collect());
         let given = held.len();
-        let mut shape = Self { level, scale, areas, remoteness, relief, marks: Vec::new(), given, may_mark };
+        let mut shape = Self {
+            level,
+            scale,
+            areas,
+            remoteness,
+            mean_remoteness,
+            relief,
+            marks: Vec::new(),
+            given,
+            may_mark,
+        };
         for (v, field) in held.into_iter().zip(fields) {
             shape.add(v, 0.0, field);
         }
