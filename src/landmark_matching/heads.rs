@@ -55,6 +55,7 @@ pub(super) fn with_twins(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignme
 
 #[cfg(test)]
 mod tests {
+    use super::super::likeness::uncrossed;
     use super::super::options::MatchOptions;
     use super::super::roles::{Roles, kept};
     use super::super::shape::Shape;
@@ -141,6 +142,34 @@ mod tests {
         let wanted: Vec<[usize; 2]> = (0..8).map(|end| [end, limb(end)]).collect();
         assert_eq!(of_ends(&found[0].pairs), wanted);
         assert_eq!([found[0].twins, found[0].mixed], [1, 0]);
+    }
+
+    #[test]
+    fn a_nose_at_an_ear_is_crossed() {
+        let mesh = body();
+        let shape = shape(&mesh);
+        let tables = Tables::new([&shape; 2], &MatchOptions::default());
+        let ends = ends(&shape);
+        let mark = |end: usize| ends.iter().position(|&e| e == end).unwrap();
+        let with = |head: &[[usize; 2]]| {
+            let limbs = (0..5).map(|end| [end; 2]);
+            let pairs = limbs.chain(head.iter().copied()).map(|pair| pair.map(mark));
+            tables.assignment(&pairs.collect::<Vec<_>>())
+        };
+        for right in [with(&[[5, 5]]), with(&[[6, 6]]), with(&[[6, 7], [7, 6]])] {
+            assert_eq!((right.crossed, uncrossed(&tables, &right)), (0, Vec::new()));
+        }
+        let crossed = with(&[[5, 6]]);
+        assert_eq!(crossed.crossed, 1);
+        let changes = uncrossed(&tables, &crossed);
+        assert_eq!(changes.len(), 2);
+        assert!(
+            changes[0].pairs.contains(&[mark(5); 2]) && changes[0].pairs.len() == 7,
+            "{:?}",
+            changes[0].pairs
+        );
+        assert!(changes[0].pairs.contains(&[mark(6); 2]) || changes[0].pairs.contains(&[mark(7), mark(6)]));
+        assert_eq!(changes[1].pairs.len(), 5);
     }
 
     #[test]

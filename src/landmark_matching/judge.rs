@@ -120,6 +120,21 @@ mod tests {
     use crate::monitor::Silent;
 
     #[test]
+    fn remoteness_is_compared_in_proportion() {
+        let (shape, options) = (shape(&four_footed()), MatchOptions::default());
+        let ends: Vec<VertexId> = shape.main(&options).iter().map(|&k| shape.marks[k].vertex).collect();
+        let pairs: Vec<[VertexId; 2]> = ends.iter().map(|&v| [v; 2]).collect();
+        let mut thin = shape.clone();
+        thin.remoteness.iter_mut().for_each(|mean| *mean *= 1.3);
+        let judged = |onto: &Shape| judge([&shape, onto], &pairs, &options, |_| true, &mut Silent);
+        let [_, in_proportion] = [&shape, &thin].map(|onto| judged(onto).unwrap().unwrap().remoteness);
+        let means = thin.mean_remoteness;
+        thin.mean_remoteness *= 1.3;
+        let same = judged(&thin).unwrap().unwrap().remoteness;
+        assert!(same < 0.1 * in_proportion && in_proportion > 0.1 * means, "{same} {in_proportion}");
+    }
+
+    #[test]
     fn only_what_promises_is_relaxed_to_the_end() {
         let (shape, options) = (shape(&four_footed()), MatchOptions::default());
         // Each end goes to the next: a map far from an isometry.

@@ -99,3 +99,32 @@ pub(super) fn uncrossed(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignmen
         |pairs: Vec<[usize; 2]>| Assignment { between: from.between, ..tables.assignment(&pairs) };
     [with, without].into_iter().filter(|pairs| pairs.len() >= LEAST_LANDMARKS).map(assignment).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::options::MatchOptions;
+    use super::super::test_bodies::{four_footed, shape};
+    use super::*;
+
+    #[test]
+    fn a_toe_is_exchanged_for_the_one_beside_it_that_is_more_like_but_not_a_main_tip() {
+        let shape = shape(&four_footed());
+        let mut tables = Tables::new([&shape; 2], &MatchOptions::default());
+        // As if a fore and a hind foot were toes of one foot of the target, and the hind one the lesser.
+        let toe = (1..shape.marks.len()).max_by(|a, b| {
+            let from_first = |k: usize| tables.difference[0][k];
+            from_first(*a).total_cmp(&from_first(*b))
+        });
+        let (foot, toe) = (0, toe.unwrap());
+        tables.places[1][toe] = tables.places[1][foot];
+        let like = |tables: &Tables<'_>, pairs: &[[usize; 2]]| tables.with_like_tips(pairs);
+        assert_eq!(like(&tables, &[[foot, toe]]), [[foot, toe]]);
+        tables.main[1].retain(|&k| k != toe);
+        assert_eq!(like(&tables, &[[foot, toe]]), [[foot; 2]]);
+        // What is like enough, taken or at another place stays.
+        assert_eq!(like(&tables, &[[toe; 2]]), [[toe; 2]]);
+        assert_eq!(like(&tables, &[[foot, toe], [toe, foot]]), [[foot, toe], [toe, foot]]);
+        tables.places[1][toe] = toe;
+        assert_eq!(like(&tables, &[[foot, toe]]), [[foot, toe]]);
+    }
+}

@@ -239,6 +239,23 @@ mod tests {
     }
 
     #[test]
+    fn a_clear_lead_settles_left_and_right() {
+        let mesh = icosphere(2);
+        let shape = shape(&mesh);
+        let verdict = |scores: [f64; 2]| {
+            let mut candidates = right_and_turned(&mesh, scores);
+            candidates[0].assignment.keeps_sides = false;
+            let found = Found { candidates: &candidates, mirrored: None };
+            super::verdict(MatchInput::new(&mesh, &mesh), [&shape; 2], found, &VerdictLimits::default())
+                .word()
+        };
+        assert_eq!(verdict([0.45, 0.7]), "sure");
+        assert_eq!(verdict([0.55, 0.7]), "doubtful");
+        assert_eq!(verdict([0.55, 0.9]), "sure");
+        assert_eq!(verdict([0.6, 1.9]), "doubtful");
+    }
+
+    #[test]
     fn a_question_is_about_vertices_that_may_be_marked() {
         let mesh = icosphere(2);
         let at = |v: VertexId| mesh.positions()[v];
