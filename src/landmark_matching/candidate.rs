@@ -96,8 +96,8 @@ const ORDERS: f64 = 0.05;
 /// the face of 385 lies right on 383, and nothing else changes on the pairs among four animals of SHREC07; 0.05 was taken after another
 /// pair (392-397) had been seen.
 const ROLES: f64 = 0.05;
-/// The amount that a pair adds to the score whose tips are both far more like other tips. Of ten matches of a dog in two poses four had the
-/// nose at an ear, by up to 0.09.
+/// The amount that a pair adds to the score whose tips are both far more like other tips. Four of ten matches of a dog in two poses had the
+/// nose at an ear, with a lead of up to 0.09.
 const CROSSED: f64 = 0.1;
 
 impl Candidate {

@@ -7,14 +7,13 @@ use super::moves::NEAR;
 use super::search::{Assignment, Tables};
 use crate::landmarks::{LEAST_LANDMARKS, MeshSide};
 
-/// A pair is crossed where both of its tips have another tip this many times as like. In 68 matches of animals three have such pairs, all of
-/// which have the head wrong; of dogs in two poses a nose at an ear has 2.5 to 3.9. Right pairs have up to 1.6 where they are less alike than
-/// [`UNLIKE`].
+/// A pair is crossed where both of its tips have another tip this many times as like: a nose at an ear has 2.5 to 3.9 times on a dog in two
+/// poses. Pairs of 68 matches of animals have up to 1.7, where they are less alike than [`UNLIKE`].
 const CROSSED: f64 = 2.0;
-/// Partners that differ by less than this are alike enough. Those of toes and fingers differ by up to 0.05, a nose and an ear by 0.18.
+/// Partners that differ by less than this are alike enough: those of a finger and the next one differ by up to 0.05, a nose and an ear by 0.18.
 const UNLIKE: f64 = 0.1;
-/// A tip gets another partner at the same place where that is this many times as like. Of 17 fingers that had the next one as partner this
-/// mends 15 and makes none wrong.
+/// A tip gets another partner at the same place where that is this many times as like. Of 20 pairs of people's fingers that were one off and
+/// had such a pair at their places, that was the right one for 19.
 const NEXT: f64 = 1.4;
 
 impl Tables<'_> {

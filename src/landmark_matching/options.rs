@@ -126,6 +126,10 @@ pub struct VerdictLimits {
     /// A candidate that leads all rivals by this is judged as one that takes left and right of one body to those of the other: the rivals
     /// have them exchanged.
     pub clear_lead: f64,
+    /// A candidate that leads all rivals by this needs a score without its remoteness below the next number alone.
+    pub wide_lead: f64,
+    /// That number: bodies of different kinds score worse.
+    pub sure_score_with_wide_lead: f64,
     /// The amount by which given pairs, however many, raise the score that is good enough: they settle which limb is which, but not how the
     /// map fits.
     pub with_given: f64,
@@ -153,10 +157,14 @@ impl Default for VerdictLimits {
         // and 0.29. Hands, whose fingers have no left and right, have scores up to 0.39, a man on a toy with large ears 0.88; right maps of
         // other bodies have scores up to 0.91, those of bodies that have no counterpart from 1.17 on. Orders agree to 0.7 and more on right
         // ones. Mirrored hands have a mean log density of 0.4 to 0.5 times the one, men in other poses of 0.88.
+        // Of 42 matches of bodies that have no counterpart none leads by 0.3; of 42 of a dog and a rat with ten other animals, 41 of them right,
+        // 29 do. Animals of SHREC07 with a wrong face lead by up to 0.386.
         Self {
             sure_score: 0.57,
             sure_score_without_sides: 0.5,
             clear_lead: 0.3,
+            wide_lead: 0.4,
+            sure_score_with_wide_lead: 0.68,
             with_given: 0.065,
             unknown_score: 1.05,
             agreement: 0.55,

@@ -114,7 +114,9 @@ pub(super) fn verdict(
     let clear = best.pairs.iter().filter(|pair| pair.origin != PairOrigin::Between).count();
     // A given pair settles a doubt that came of the score alone. More of them say no more about the fit.
     let settled = if input.given.is_empty() { 0.0 } else { limits.with_given };
-    let scores_well = if best.assignment.keeps_sides || leads_by(limits.clear_lead) {
+    let scores_well = if leads_by(limits.wide_lead) {
+        best.score_without_remoteness() < limits.sure_score_with_wide_lead
+    } else if best.assignment.keeps_sides || leads_by(limits.clear_lead) {
         best.score_without_remoteness() < limits.sure_score + settled
     } else {
         best.score < limits.sure_score_without_sides + settled
@@ -252,7 +254,10 @@ mod tests {
         assert_eq!(verdict([0.45, 0.7]), "sure");
         assert_eq!(verdict([0.55, 0.7]), "doubtful");
         assert_eq!(verdict([0.55, 0.9]), "sure");
-        assert_eq!(verdict([0.6, 1.9]), "doubtful");
+        assert_eq!(verdict([0.6, 0.95]), "doubtful");
+        // By still more it makes up for a poorer score, as between a rat and a lion.
+        assert_eq!(verdict([0.6, 1.05]), "sure");
+        assert_eq!(verdict([0.7, 1.9]), "doubtful");
     }
 
     #[test]
