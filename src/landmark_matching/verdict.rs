@@ -223,9 +223,9 @@ mod tests {
         };
         let verdict = |scores: [f64; 2], given: &[[VertexId; 2]]| verdict_with(None, scores, given);
         assert_eq!(verdict([0.40, 1.10], &[]), "sure");
-        assert_eq!(verdict([0.62, 1.10], &[]), "doubtful");
-        assert_eq!(verdict([0.62, 1.10], &given), "sure");
-        assert_eq!(verdict([0.65, 1.10], &given), "doubtful");
+        assert_eq!(verdict([0.62, 0.95], &[]), "doubtful");
+        assert_eq!(verdict([0.62, 0.95], &given), "sure");
+        assert_eq!(verdict([0.65, 0.95], &given), "doubtful");
         assert_eq!(verdict([0.40, 0.45], &given), "doubtful");
         assert_eq!(verdict([1.10, 1.90], &given), "unknown");
         // The mirror image of a body that is nearly symmetric fits as well; in another pose it may fit better, as distorted.

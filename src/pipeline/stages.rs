@@ -14,9 +14,9 @@ enum AddsCones {
 
 impl PipelineOptions {
     /// The stages that a run with these options and this many landmarks passes, in their order: the two of the caller that reads the
-    /// files ([`Stage::Landmarks`], [`Stage::Findings`]), then those of [`super::run`]. Their times are
-    /// percents of a run, means over five pairs with 21 to 33 landmarks, three with 12 and three of the thesis' method
-    /// (`cargo xtask survey stages`), and six of Tutte's.
+    /// files ([`Stage::Landmarks`], [`Stage::Findings`]), then those of [`super::run`]. With many landmarks [`Stage::OwnCones`] is passed
+    /// between poses of one body alone. Times are percents of a run, means over five pairs with 21 to 33 landmarks, three with 12 and three of
+    /// the thesis' method (`cargo xtask survey stages`), and six of Tutte's.
     pub fn stages(&self, landmarks: usize) -> Vec<PlannedStage> {
         use Stage::*;
         let planned = |list: &[(Stage, f64)]| {

@@ -13,8 +13,10 @@ use conemap::landmark_exchange::GivenFile;
 use conemap::landmarks::MeshSide;
 use conemap::mesh::mirror::mirrored;
 use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
-use conemap::monitor::{Cancelled, Monitor, Progress, Silent, Stage, Step};
-use conemap::pipeline::{Base, Borders, Choices, MapResult, Method, PipelineOptions, Warning};
+use conemap::monitor::{Cancelled, Monitor, PlannedStage, Progress, Silent, Stage, Step};
+use conemap::pipeline::{
+    Base, Borders, Choices, MapResult, Method, OwnConeOptions, PipelineOptions, Warning,
+};
 
 /// The files of a job.
 pub struct Files {
@@ -122,8 +124,7 @@ fn check_stages<const N: usize>(demo: &str, runs: [(&str, usize, PipelineOptions
         let mut recorder = Recorder::default();
         let (job, _) = run(&files, &options, &mut recorder);
         let plan = options.stages(job.landmark_count());
-        let passed: Vec<Stage> = recorder.stages.iter().map(|stage| stage.0).collect();
-        assert_eq!(passed, plan.iter().map(|planned| planned.stage).collect::<Vec<_>>(), "{name}");
+        check_passed(&recorder, &plan, job.landmark_count(), name);
         assert!(plan.is_sorted_by_key(|planned| planned.stage), "{name}: {plan:?}");
         assert!(plan.iter().all(|planned| planned.time > 0.0), "{name}: {plan:?}");
 
@@ -141,6 +142,16 @@ fn check_stages<const N: usize>(demo: &str, runs: [(&str, usize, PipelineOptions
     }
 }
 
+/// All stages of a plan are passed, in their order, but for cones of the program's own with many landmarks: only poses of one body get them.
+fn check_passed(recorder: &Recorder, plan: &[PlannedStage], landmarks: usize, name: &str) {
+    let passed: Vec<Stage> = recorder.stages.iter().map(|stage| stage.0).collect();
+    let may_be_left_out =
+        |stage: Stage| stage == Stage::OwnCones && landmarks > OwnConeOptions::default().most_landmarks;
+    let mut planned: Vec<Stage> = plan.iter().map(|planned| planned.stage).collect();
+    planned.retain(|stage| passed.contains(stage) || !may_be_left_out(*stage));
+    assert_eq!(passed, planned, "{name}");
+}
+
 #[test]
 fn a_soft_landmark_settles_within_its_radius_and_the_map_takes_it_there() {
     const SOFT: usize = 2;
@@ -153,10 +164,10 @@ fn a_soft_landmark_settles_within_its_radius_and_the_map_takes_it_there() {
     let options = PipelineOptions::default();
     let mut recorder = Recorder::default();
     let (job, result) = run(&files, &options, &mut recorder);
-    let passed: Vec<Stage> = recorder.stages.iter().map(|stage| stage.0).collect();
     let plan = planned_stages(&landmark_file::read(&files.landmarks).unwrap(), &options);
-    assert_eq!(passed, plan.iter().map(|planned| planned.stage).collect::<Vec<_>>());
-    assert_eq!(passed[..3], [Stage::Landmarks, Stage::Settling, Stage::Findings]);
+    check_passed(&recorder, &plan, job.landmark_count(), "soft");
+    let first = recorder.stages[..3].iter().map(|stage| stage.0);
+    assert!(first.eq([Stage::Landmarks, Stage::Settling, Stage::Findings]));
     assert!(recorder.stages.iter().all(|(_, fractions)| fractions.is_sorted()));
     assert!(result.report.certificate.as_ref().unwrap().bijective);
 
