@@ -127,11 +127,11 @@ mod tests {
         let mut thin = shape.clone();
         thin.remoteness.iter_mut().for_each(|mean| *mean *= 1.3);
         let judged = |onto: &Shape| judge([&shape, onto], &pairs, &options, |_| true, &mut Silent);
-        let [_, in_proportion] = [&shape, &thin].map(|onto| judged(onto).unwrap().unwrap().remoteness);
-        let means = thin.mean_remoteness;
+        let mean = shape.mean_remoteness;
+        let as_it_is = judged(&thin).unwrap().unwrap().remoteness;
         thin.mean_remoteness *= 1.3;
-        let same = judged(&thin).unwrap().unwrap().remoteness;
-        assert!(same < 0.1 * in_proportion && in_proportion > 0.1 * means, "{same} {in_proportion}");
+        let in_proportion = judged(&thin).unwrap().unwrap().remoteness;
+        assert!(in_proportion < 0.1 * as_it_is && as_it_is > 0.1 * mean, "{in_proportion} {as_it_is}");
     }
 
     #[test]

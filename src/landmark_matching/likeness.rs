@@ -38,7 +38,7 @@ impl Tables<'_> {
         other < LIKE && self.difference[s][t] > UNLIKE.max(CROSSED * other)
     }
 
-    /// The free tip of the other body that is most like a mark, of those that `may` be, with the difference of their descriptors.
+    /// The tip of the other body that is most like a mark, of those that are not given and `may` be, with the difference of their descriptors.
     fn most_like(&self, mark: usize, side: MeshSide, may: impl Fn(usize) -> bool) -> Option<(f64, usize)> {
         let difference = |other: usize| match side {
             MeshSide::Source => self.difference[mark][other],
@@ -76,13 +76,13 @@ impl Tables<'_> {
 
 /// The assignment `from` with other partners for its crossed pairs, and the one without these pairs; none where no pair is crossed.
 pub(super) fn uncrossed(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
-    let is_right = |pair: &&[usize; 2]| !tables.is_crossed(**pair);
-    let without: Vec<[usize; 2]> = from.pairs.iter().filter(is_right).copied().collect();
-    if without.len() == from.pairs.len() {
+    let (crossed, without): (Vec<[usize; 2]>, Vec<_>) =
+        from.pairs.iter().partition(|pair| tables.is_crossed(**pair));
+    if crossed.is_empty() {
         return Vec::new();
     }
     let mut with = without.clone();
-    for &pair in from.pairs.iter().filter(|pair| tables.is_crossed(**pair)) {
+    for pair in crossed {
         for side in MeshSide::BOTH {
             let (own, before) = (pair[side], pair[side.other()]);
             let shape = tables.shapes[side.other()];

@@ -126,9 +126,9 @@ pub struct VerdictLimits {
     /// A candidate that leads all rivals by this is judged as one that takes left and right of one body to those of the other: the rivals
     /// have them exchanged.
     pub clear_lead: f64,
-    /// A candidate that leads all rivals by this needs a score without its remoteness below the next number alone.
+    /// A candidate that leads all rivals by this may score worse, as between bodies of different kinds.
     pub wide_lead: f64,
-    /// That number: bodies of different kinds score worse.
+    /// Score without its remoteness from which on such a candidate is doubtful.
     pub sure_score_with_wide_lead: f64,
     /// The amount by which given pairs, however many, raise the score that is good enough: they settle which limb is which, but not how the
     /// map fits.

@@ -55,9 +55,11 @@ pub(super) fn has_own_cones(landmarks: usize, options: &PipelineOptions) -> bool
     landmarks <= options.own_cones.most_landmarks && options.own_cones.count > 0
 }
 
-/// Whether cones of the program's own are tried with this many landmarks between two poses of one body.
+/// Whether cones of the program's own are tried with this many landmarks between two poses of one body. A search with them would go back to
+/// the best class.
 pub(super) fn has_own_cones_of_poses(landmarks: usize, options: &PipelineOptions) -> bool {
-    landmarks <= options.own_cones.most_pose_landmarks && options.own_cones.count > 0
+    let OwnConeOptions { most_pose_landmarks, count, .. } = options.own_cones;
+    landmarks <= most_pose_landmarks && count > 0 && options.class == ClassChoice::Best
 }
 
 /// Vertices of the coarse level on which the search for the class begins.
@@ -254,7 +256,7 @@ fn solve(
 const TURNED: f64 = 0.9;
 
 /// Progress of the second look at two poses after the first map was judged, after the search on other levels, and after its map was
-/// judged. Measured on two pairs with 33 landmarks, for display only.
+/// judged. Chosen by hand, for display only.
 const LOOKED: [f64; 3] = [0.1, 0.3, 0.4];
 
 /// The map between two poses of one body with many landmarks where that of coarse levels with more vertices, or own cones on those, turn a
@@ -268,7 +270,7 @@ fn turned_back(
     monitor: &mut dyn Monitor,
 ) -> Result<Option<Solved>, PipelineError> {
     let PipelineOptions { multilevel, own_cones: own_options, .. } = options;
-    if options.class != ClassChoice::Best || monitor.wants_result() {
+    if monitor.wants_result() {
         return Ok(None);
     }
     monitor.enter(Stage::OwnCones);

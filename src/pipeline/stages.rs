@@ -4,14 +4,6 @@ use super::parametrise::{has_own_cones, has_own_cones_of_poses};
 use super::{Base, Method, PipelineOptions};
 use crate::monitor::{PlannedStage, Stage};
 
-/// When a run adds cones of its own in a stage of their own.
-#[derive(Clone, Copy)]
-enum AddsCones {
-    Never,
-    BetweenPoses,
-    Always,
-}
-
 impl PipelineOptions {
     /// The stages that a run with these options and this many landmarks passes, in their order: the two of the caller that reads the
     /// files ([`Stage::Landmarks`], [`Stage::Findings`]), then those of [`super::run`]. With many landmarks [`Stage::OwnCones`] is passed
@@ -22,17 +14,11 @@ impl PipelineOptions {
         let planned = |list: &[(Stage, f64)]| {
             list.iter().map(|&(stage, time)| PlannedStage { stage, time }).collect::<Vec<_>>()
         };
-        let adds_cones = if self.relaxation != super::Relaxation::Full {
-            AddsCones::Never
-        } else if has_own_cones(landmarks, self) {
-            AddsCones::Always
-        } else if has_own_cones_of_poses(landmarks, self) {
-            AddsCones::BetweenPoses
-        } else {
-            AddsCones::Never
-        };
-        match (self.method, adds_cones) {
-            (Method::Relaxed, AddsCones::Never) => planned(&[
+        let is_relaxed = self.relaxation == super::Relaxation::Full;
+        let adds_cones = is_relaxed && has_own_cones(landmarks, self);
+        let may_add_cones = is_relaxed && has_own_cones_of_poses(landmarks, self);
+        match (self.method, adds_cones, may_add_cones) {
+            (Method::Relaxed, false, false) => planned(&[
                 (Landmarks, 1.0),
                 (Findings, 5.0),
                 (ClassSearch, if self.base == Base::Qem { 5.0 } else { 39.0 }),
@@ -44,7 +30,7 @@ impl PipelineOptions {
                 (Transfer, 1.0),
             ]),
             // Whether there are poses is not known yet: the means of three pairs of poses, 48 % of whose time goes to cones, and five others.
-            (Method::Relaxed, AddsCones::BetweenPoses) => planned(&[
+            (Method::Relaxed, false, true) => planned(&[
                 (Landmarks, 0.6),
                 (Findings, 3.0),
                 (ClassSearch, if self.base == Base::Qem { 3.0 } else { 21.0 }),
@@ -56,7 +42,7 @@ impl PipelineOptions {
                 (TargetConeMetric, 1.2),
                 (Transfer, 2.0),
             ]),
-            (Method::Relaxed, AddsCones::Always) => planned(&[
+            (Method::Relaxed, true, _) => planned(&[
                 (Landmarks, 0.3),
                 (Findings, 1.6),
                 (ClassSearch, if self.base == Base::Qem { 2.0 } else { 14.0 }),
@@ -68,7 +54,7 @@ impl PipelineOptions {
                 (TargetConeMetric, 0.5),
                 (Transfer, 0.6),
             ]),
-            (Method::Thesis, _) => planned(&[
+            (Method::Thesis, ..) => planned(&[
                 (Landmarks, 4.0),
                 (Findings, 23.0),
                 (BaseDomain, 42.0),
@@ -77,7 +63,7 @@ impl PipelineOptions {
                 (PatchwiseMap, 17.2),
                 (Transfer, 0.3),
             ]),
-            (Method::Tutte, _) => planned(&[
+            (Method::Tutte, ..) => planned(&[
                 (Landmarks, 2.6),
                 (Findings, 21.0),
                 (BaseDomain, 40.0),
