@@ -237,6 +237,11 @@ mod tests {
         let [graze, rear] = MeshSide::BOTH.map(|side| Places { demo: &demo, side });
         assert!(graze.of("nose").y < graze.of("left elbow").y);
         assert!(rear.of("left fore foot").y > rear.of("left hind foot").y + 0.6);
+        // The torso is rigid: a lowered head takes no landmark of it along.
+        for name in ["withers", "left shoulder", "belly"] {
+            let [there, here] = [&graze, &rear].map(|p| p.of("chest").distance(p.of(name)));
+            assert!((there - here).abs() < 0.12, "{name}: {there} {here}");
+        }
         let demo = check("figure-running");
         let [stand, run] = MeshSide::BOTH.map(|side| Places { demo: &demo, side });
         assert!((stand.of("left heel").y - stand.of("right heel").y).abs() < 0.01);

@@ -8,7 +8,7 @@ use super::eye::eye;
 use super::shape::{Mark, MarkedBody};
 use super::tube::{Node, tube};
 use crate::math::rigid2::Rigid2;
-use crate::math::scalar::{cos, sin};
+use crate::math::scalar::{cos, min, sin};
 use glam::{DVec2, DVec3};
 
 /// A section at rest: x, y, z of its middle, half its height in the profile, and half its width.
@@ -168,7 +168,7 @@ impl Sculpture {
             sculpture.leg(build, &build.hind, [side, 1.0], pose.hind[k]);
         }
         sculpture.tail(build, pose);
-        sculpture.torso_marks(build);
+        sculpture.torso_marks(build, pose);
         sculpture
     }
 
@@ -278,12 +278,15 @@ impl Sculpture {
         self.parts.push(Part::join(tube(&nodes), 0.3 * build.blend, self.edges[1]));
     }
 
-    fn torso_marks(&mut self, build: &Build) {
+    fn torso_marks(&mut self, build: &Build, pose: &Pose) {
         let at = |k: usize| DVec3::new(build.torso[k][0], build.torso[k][1], 0.0);
         let last = build.torso.len() - 1;
         let middle = last / 2;
+        // A neck that is lowered lies before the chest, which is below it.
+        let below_neck = 0.5 * min(pose.neck, 0.0);
+        let chest = DVec3::new(cos(below_neck), sin(below_neck), 0.0);
         for (name, place, direction) in [
-            ("chest", at(0), DVec3::X),
+            ("chest", at(0), chest),
             ("withers", at(1).lerp(at(2), 0.4), DVec3::Y),
             ("back", at(middle), DVec3::Y),
             ("croup", at(last - 1), DVec3::Y),

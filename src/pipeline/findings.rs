@@ -262,4 +262,16 @@ mod tests {
         assert_eq!((&json[0]["repair"], &json[0]["pairs"]), (&"swap".into(), &vec![0, last].into()));
         assert!(json[0]["sentence"].as_str().unwrap().contains(&demo.labels[0]), "{json}");
     }
+
+    /// The horns of the cow have no landmark.
+    #[test]
+    fn landmarks_of_all_demos_fit() {
+        for demo::DemoInfo { id, .. } in demo::list() {
+            let demo = demo::build(id).unwrap();
+            let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &demo.landmarks).unwrap();
+            let input = MapInput::new(&demo.source, &demo.target, &landmarks);
+            let found = findings(input, &demo.labels, &mut Silent).unwrap();
+            assert!(found.iter().all(|f| f.kind == FindingKind::UnmarkedLimbs), "{id}: {found:?}");
+        }
+    }
 }
