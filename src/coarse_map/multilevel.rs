@@ -422,36 +422,34 @@ impl CoarseMap<'_> {
         Ok(true)
     }
 
-    /// The map on the first level that has at least this many vertices, settled on all levels up to there and measured on it, or on the last
-    /// level before the full meshes; `None` where that is the present one.
+    /// Goes on to the first level that has at least this many vertices, or to the last one before the full meshes, settles the map on all levels
+    /// up to there and measures it; `false` where that is the present level.
     ///
     /// # Errors
     /// [`MapError::NoStart`], [`MapError::Cancelled`].
-    pub(super) fn refined_to(
-        &self,
+    pub(super) fn refine_to(
+        &mut self,
         least: usize,
         options: &MultilevelOptions,
         monitor: &mut dyn Monitor,
-    ) -> Result<Option<Self>, MapError> {
-        let mut map = self.clone();
-        let lines = map.border_lines();
+    ) -> Result<bool, MapError> {
+        let lines = self.border_lines();
         let mut is_finer = false;
         let is_between = |level: &ParametrisedLevel<'_>| {
             let full = level.full_vertices();
             options.next_level(level.mesh().live_vertices(), full) < full
         };
-        while !map.have(least)
-            && map.levels.iter().all(is_between)
-            && map.settle_next(lines.as_ref(), options, monitor)?
+        while !self.have(least)
+            && self.levels.iter().all(is_between)
+            && self.settle_next(lines.as_ref(), options, monitor)?
         {
             is_finer = true;
         }
-        if !is_finer {
-            return Ok(None);
+        if is_finer {
+            let as_it_is = MapRelaxationOptions { energy: self.energy, max_rounds: 0, ..options.fine };
+            self.mean_log = self.lower(&as_it_is, monitor, |seen| seen.mean_log())?;
         }
-        let as_it_is = MapRelaxationOptions { energy: map.energy, max_rounds: 0, ..options.fine };
-        map.mean_log = map.lower(&as_it_is, monitor, |seen| seen.mean_log())?;
-        Ok(Some(map))
+        Ok(is_finer)
     }
 
     /// Repairs the dents of the map of the present levels.
@@ -685,7 +683,8 @@ mod tests {
         let map = drawn_once(&levels, options);
         assert!(map.is_of_poses());
 
-        let finer = map.refined_to(2000, options, &mut Silent).unwrap().unwrap();
+        let mut finer = map.clone();
+        assert!(finer.refine_to(2000, options, &mut Silent).unwrap());
         assert!(finer.is_of_one_body());
         let sizes = finer.images().unwrap().levels.map(|level| level.mesh.vertex_count());
         assert!(sizes.iter().all(|size| (2000..2500).contains(size)), "{sizes:?}");
@@ -694,10 +693,11 @@ mod tests {
         assert!(after < 0.75 * before, "{before} and {after}");
 
         // The full meshes are left to the last refinement.
-        let last = finer.refined_to(usize::MAX, options, &mut Silent).unwrap().unwrap();
+        let mut last = finer;
+        assert!(last.refine_to(usize::MAX, options, &mut Silent).unwrap());
         let sizes = last.images().unwrap().levels.map(|level| level.mesh.vertex_count());
         assert!((0..2).all(|k| 2 * sizes[k] <= full[k].refined.mesh.vertex_count()), "{sizes:?}");
-        assert!(last.refined_to(usize::MAX, options, &mut Silent).unwrap().is_none());
+        assert!(!last.refine_to(usize::MAX, options, &mut Silent).unwrap());
     }
 
     #[test]
@@ -714,7 +714,8 @@ mod tests {
         let levels = coarse_levels(&full, 600, options.rims, &mut Silent).unwrap();
         let map = drawn_once(&levels, options);
         assert!(map.is_of_poses() && map.is_of_one_body());
-        let finer = map.refined_to(1000, options, &mut Silent).unwrap().unwrap();
+        let mut finer = map;
+        assert!(finer.refine_to(1000, options, &mut Silent).unwrap());
         assert!(!finer.is_of_poses(), "{:?}", finer.patch_fit);
         assert!(finer.constraints.iter().all(Vec::is_empty));
     }

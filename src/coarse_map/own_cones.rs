@@ -146,17 +146,22 @@ impl OwnCones<'_> {
         self.map.mean_log
     }
 
-    /// Its mean log density on a finer level ([`judged_on_finer_level`]).
+    /// The same on a finer level ([`on_finer_level`]); `None` where there is none, or where patches of both meshes do not fit each other there.
     ///
     /// # Errors
     /// Cancellation only.
-    pub fn judged_on_finer_level(
-        &self,
+    pub fn on_finer_level(
+        self,
         own: &OwnConeOptions,
         options: &MultilevelOptions,
         monitor: &mut dyn Monitor,
-    ) -> Result<Option<f64>, Cancelled> {
-        judged_on_finer_level(&self.map, own, options, monitor)
+    ) -> Result<Option<Self>, Cancelled> {
+        let Self { full, mut map } = self;
+        match on_finer_level(&mut map, own, options, monitor) {
+            Ok(is_of_one_body) => Ok(is_of_one_body.then_some(Self { full, map })),
+            Err(MapError::Cancelled(stop)) => Err(stop),
+            Err(_) => Ok(None),
+        }
     }
 
     /// The map of the full meshes; `None` where it is not found or not certified.
@@ -202,26 +207,22 @@ pub struct Start<'a> {
     pub map: &'a CoarseMap<'a>,
     /// Vertices of the coarse levels.
     pub vertices: usize,
-    /// Whether patches of both meshes are known to fit each other ([`judged_on_finer_level`]).
+    /// Whether patches of both meshes are known to fit each other ([`on_finer_level`]).
     pub is_one_body: bool,
 }
 
-/// The mean log density of a map between two poses of one body on a finer level, where patches of both are registered; `None` where they do
-/// not fit each other, or where there is no finer level.
+/// Goes on with a map between two poses to a finer level, on which patches of both meshes are registered and maps of different coarse levels can be
+/// compared; `false` where there is no finer level, or where the patches tell that there are two bodies.
 ///
 /// # Errors
-/// Cancellation only.
-pub fn judged_on_finer_level(
-    map: &CoarseMap<'_>,
+/// [`MapError::NoStart`], [`MapError::Cancelled`].
+pub fn on_finer_level(
+    map: &mut CoarseMap<'_>,
     own: &OwnConeOptions,
     options: &MultilevelOptions,
     monitor: &mut dyn Monitor,
-) -> Result<Option<f64>, Cancelled> {
-    match map.refined_to(own.finer_vertices, options, monitor) {
-        Ok(finer) => Ok(finer.filter(CoarseMap::is_of_one_body).map(|finer| finer.mean_log)),
-        Err(MapError::Cancelled(stop)) => Err(stop),
-        Err(_) => Ok(None),
-    }
+) -> Result<bool, MapError> {
+    Ok(map.refine_to(own.finer_vertices, options, monitor)? && map.is_of_one_body())
 }
 
 /// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
@@ -464,8 +465,9 @@ impl<'a> Adding<'_, 'a> {
         monitor: &mut dyn Monitor,
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
         let part = &mut Portion::new(monitor, self.done(0.0), self.done(0.0));
-        match found.map.refined_to(vertices, self.multilevel, part) {
-            Ok(refined) => Ok(refined.map(|map| OwnCones { full: found.full, map })),
+        let mut map = found.map.clone();
+        match map.refine_to(vertices, self.multilevel, part) {
+            Ok(is_finer) => Ok(is_finer.then_some(OwnCones { full: found.full, map })),
             Err(MapError::Cancelled(stop)) => Err(stop),
             Err(_) => Ok(None),
         }

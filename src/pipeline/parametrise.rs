@@ -218,12 +218,9 @@ fn solve(
             solve_unrelaxed(&sides, &layout, &options.multilevel, monitor)?;
         return Ok(Solved { layout, search, surface, embeddings, meshes: None });
     }
-    if !has_own
-        && has_own_cones_of_poses(input.landmarks.len(), options)
-        && map.is_of_poses()
-        && let Some(solved) = turned_back(input, full, &map, attempt, options, monitor)?
-    {
-        return Ok(solved);
+    if !has_own && has_own_cones_of_poses(input.landmarks.len(), options) && map.is_of_poses() {
+        let first = Coarse { layout, search, map };
+        return poses_with_many_landmarks(input, full, first, attempt, options, monitor);
     }
     if has_own {
         monitor.enter(Stage::OwnCones);
@@ -259,24 +256,42 @@ const TURNED: f64 = 0.9;
 /// judged. Chosen by hand, for display only.
 const LOOKED: [f64; 3] = [0.1, 0.3, 0.4];
 
-/// The map between two poses of one body with many landmarks where that of coarse levels with more vertices, or own cones on those, turn a
-/// limb back that is turned between its landmarks; `None` where nothing is turned, or where there are two bodies.
+/// The map between two poses of one body with many landmarks: the first one, or where that turns a limb between its landmarks, the one that turns
+/// it back.
+fn poses_with_many_landmarks(
+    input: MapInput<'_>,
+    full: &[LandmarkedMesh; 2],
+    mut first: Coarse<'_>,
+    attempt: Attempt,
+    options: &PipelineOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Solved, PipelineError> {
+    if !monitor.wants_result() {
+        monitor.enter(Stage::OwnCones);
+        let PipelineOptions { multilevel, own_cones: own_options, .. } = options;
+        let judging = &mut Portion::new(monitor, 0.0, LOOKED[0]);
+        if own_cones::on_finer_level(&mut first.map, own_options, multilevel, judging)? {
+            let least = TURNED * first.map.mean_log;
+            if let Some(solved) = turned_back(input, full, least, attempt, options, monitor)? {
+                return Ok(solved);
+            }
+        }
+    }
+    monitor.enter(Stage::Relaxation);
+    first.solved(options, monitor)
+}
+
+/// A map of coarse levels with more vertices, or with own cones on those, whose mean log density on a finer level is below `least`; `None` where
+/// there is none.
 fn turned_back(
     input: MapInput<'_>,
     full: &[LandmarkedMesh; 2],
-    map: &CoarseMap<'_>,
+    mut least: f64,
     attempt: Attempt,
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<Solved>, PipelineError> {
     let PipelineOptions { multilevel, own_cones: own_options, .. } = options;
-    if monitor.wants_result() {
-        return Ok(None);
-    }
-    monitor.enter(Stage::OwnCones);
-    let judging = &mut Portion::new(monitor, 0.0, LOOKED[0]);
-    let judged = own_cones::judged_on_finer_level(map, own_options, multilevel, judging)?;
-    let Some(mut least) = judged.map(|judged| TURNED * judged) else { return Ok(None) };
     // More cones need levels with more vertices, and their maps are compared with one on such levels.
     let vertices = attempt.vertices.max(level_with_own(input.landmarks.len(), options));
     let searching = &mut Portion::new(monitor, LOOKED[0], LOOKED[1]).unseen();
@@ -286,33 +301,39 @@ fn turned_back(
         Err(PipelineError::Layout(LayoutError::NoMap { .. })) => return Ok(None),
         Err(error) => return Err(error),
     };
-    let map = &found.map;
-    if !map.is_of_poses() {
+    if !found.map.is_of_poses() {
         return Ok(None);
     }
+    let mut finer = found.map.clone();
     let judging = &mut Portion::new(monitor, LOOKED[1], LOOKED[2]);
-    let judged = own_cones::judged_on_finer_level(map, own_options, multilevel, judging)?;
-    let better = judged.filter(|judged| *judged < least);
-    if let Some(judged) = better {
-        least = TURNED * judged;
+    let is_better = match own_cones::on_finer_level(&mut finer, own_options, multilevel, judging) {
+        Ok(is_of_one_body) => is_of_one_body && finer.mean_log < least,
+        Err(MapError::Cancelled(stop)) => return Err(stop.into()),
+        // The first map stays.
+        Err(_) => false,
+    };
+    if is_better {
+        least = TURNED * finer.mean_log;
     }
     let (meshes, levels) = (Rounds::new(own_options), Rounds::new(own_options));
-    let start = Start { inputs: [input.source, input.target], full, map, vertices, is_one_body: true };
+    let (inputs, map) = ([input.source, input.target], &found.map);
+    let start = Start { inputs, full, map, vertices, is_one_body: true };
     let owners = Owners { meshes: &meshes, levels: &levels };
     let adding = &mut Portion::new(monitor, LOOKED[2], 1.0);
     if let Some(own) = own_cones::add(start, owners, multilevel, own_options, adding)?
-        && own.judged_on_finer_level(own_options, multilevel, adding)?.is_some_and(|judged| judged < least)
+        && let Some(own) = own.on_finer_level(own_options, multilevel, adding)?
+        && own.mean_log() < least
     {
         monitor.enter(Stage::Relaxation);
         if let Some(refined) = own.refined(multilevel, monitor)? {
             return Ok(Some(Solved::with_own(refined, found.layout, found.search)));
         }
     }
-    if better.is_none() {
+    if !is_better {
         return Ok(None);
     }
     monitor.enter(Stage::Relaxation);
-    found.solved(options, monitor).map(Some)
+    Coarse { map: finer, ..found }.solved(options, monitor).map(Some)
 }
 
 /// A coarse map with its layout.
