@@ -106,11 +106,15 @@ pub(super) fn verdict(
     let Some(best) = candidates.first().filter(|best| best.score < limits.unknown_score) else {
         return unknown();
     };
-    let parts = |c: &&Candidate| c.difference.as_ref().is_some_and(|d| d.share > limits.parting);
-    let number = candidates.iter().position(|candidate| parts(&candidate));
-    let rival = number.map(|number| &candidates[number]);
-    let leads_by = |lead: f64| rival.is_some_and(|rival| rival.score >= best.score + lead);
-    let near = rival.is_some() && !leads_by(limits.margin);
+    let parts = |c: &Candidate| c.difference.as_ref().is_some_and(|d| d.share > limits.parting);
+    let rivals = || candidates.iter().enumerate().filter(|(_, candidate)| parts(candidate));
+    let first = rivals().next();
+    let leads_by = |lead: f64| first.is_some_and(|(_, rival)| rival.score >= best.score + lead);
+    let margin = |rival: &Candidate| {
+        let exchanges = best.assignment.keeps_sides && !rival.assignment.keeps_sides;
+        if exchanges { limits.margin_of_sides } else { limits.margin }
+    };
+    let near = rivals().find(|(_, rival)| rival.score < best.score + margin(rival));
     let clear = best.pairs.iter().filter(|pair| pair.origin != PairOrigin::Between).count();
     // A given pair settles a doubt that came of the score alone. More of them say no more about the fit.
     let settled = if input.given.is_empty() { 0.0 } else { limits.with_given };
@@ -125,10 +129,10 @@ pub(super) fn verdict(
     // One pair less is enough for a map that is nearly an isometry, as that of a body with few ends onto another pose of it.
     let isometric = best.score < limits.sure_score_without_sides;
     let enough = clear + usize::from(isometric) >= limits.least_pairs;
-    if fits && !near && enough {
+    if fits && near.is_none() && enough {
         return Verdict::Sure;
     }
-    let question = number.and_then(|number| question(input, candidates, number));
+    let question = near.or(first).and_then(|(number, _)| question(input, candidates, number));
     question.map_or_else(unknown, Verdict::Doubtful)
 }
 
@@ -258,6 +262,28 @@ mod tests {
         // By still more it makes up for a poorer score, as between a rat and a lion.
         assert_eq!(verdict([0.6, 1.05]), "sure");
         assert_eq!(verdict([0.7, 1.9]), "doubtful");
+    }
+
+    #[test]
+    fn a_rival_that_exchanges_limbs_has_to_come_nearer() {
+        let mesh = icosphere(2);
+        let shape = shape(&mesh);
+        // The second rival keeps left and right, as the best candidate does.
+        let verdict = |scores: [f64; 2]| {
+            let [best, mut exchanging] = right_and_turned(&mesh, [0.4, scores[0]]);
+            let keeping = Candidate { score: scores[1], ..exchanging.clone() };
+            exchanging.assignment.keeps_sides = false;
+            let candidates = [best, exchanging, keeping];
+            let found = Found { candidates: &candidates, mirrored: None };
+            super::verdict(MatchInput::new(&mesh, &mesh), [&shape; 2], found, &VerdictLimits::default())
+        };
+        let rival = |verdict: Verdict| match verdict {
+            Verdict::Doubtful(question) => Some(question.rival),
+            _ => None,
+        };
+        assert_eq!(verdict([0.46, 0.6]), Verdict::Sure);
+        assert_eq!(rival(verdict([0.44, 0.6])), Some(1));
+        assert_eq!(rival(verdict([0.46, 0.47])), Some(2));
     }
 
     #[test]

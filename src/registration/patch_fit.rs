@@ -5,7 +5,7 @@
 //! directions relief holds the patch.
 
 use crate::math::rigid3::{Rigid3, nearest_rotation, outer, small_turn};
-use crate::math::scalar::max;
+use crate::math::scalar::{max, min};
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::{SurfaceMesh, VertexId};
 use glam::{DMat3, DVec3};
@@ -47,18 +47,25 @@ impl<'a> OrientedSurface<'a> {
 
     /// A vertex that is nearer to p than all its neighbours, reached from `from` by going to the nearest neighbour again and again.
     pub fn nearest(&self, from: VertexId, p: DVec3) -> VertexId {
+        self.nearest_with_margin(from, p).0
+    }
+
+    /// The same, and the distance by which p may move without coming nearer to a neighbour of that vertex.
+    fn nearest_with_margin(&self, from: VertexId, p: DVec3) -> (VertexId, f64) {
         let distance = |v: VertexId| self.mesh.positions()[v].distance_squared(p);
         let (mut best, mut least) = (from, distance(from));
         loop {
             let v = best;
+            let mut next = f64::INFINITY;
             for w in self.mesh.star(v).map(|h| self.mesh.head(h)) {
                 let d = distance(w);
+                next = min(next, d);
                 if d < least {
                     (best, least) = (w, d);
                 }
             }
             if best == v {
-                return v;
+                return (v, 0.5 * (next.sqrt() - least.sqrt()));
             }
         }
     }
@@ -142,8 +149,7 @@ pub struct FitOptions {
     pub noise: f64,
 }
 
-/// The normal equations of one step for a turn and a shift about the centre, in this order: the lower triangle of their matrix,
-/// and their right side.
+/// The normal equations of one step for a turn and a shift about the centre, in this order: their matrix and their right side.
 struct NormalEquations {
     matrix: Matrix6<f64>,
     right: Vector6<f64>,
@@ -157,8 +163,10 @@ const LEAST_RESISTANCE: f64 = 1e-9;
 /// Fits of patches; keeps its working memory from one to the next.
 #[derive(Default)]
 pub struct Fitter {
+    /// Where the nearest vertex of each point was looked for last, with its margin.
+    seen: Vec<(DVec3, f64)>,
     distances: Vec<f64>,
-    sorted: Vec<f64>,
+    sizes: Vec<f64>,
     normals: Vec<DVec3>,
     arms: Vec<DVec3>,
 }
@@ -175,6 +183,8 @@ impl Fitter {
         let centre = *points.first()?;
         let total: f64 = points.iter().map(|p| p.weight).sum();
         let mut motion = start(points, total, onto)?;
+        self.seen.clear();
+        self.seen.resize(points.len(), (DVec3::ZERO, -1.0));
         let mut fit = None;
         for _ in 0..options.max_steps {
             let at = motion.apply(centre.position);
@@ -220,9 +230,13 @@ impl Fitter {
         self.distances.clear();
         self.normals.clear();
         self.arms.clear();
-        for p in points.iter_mut() {
+        for (p, (place, margin)) in points.iter_mut().zip(&mut self.seen) {
             let y = motion.apply(p.position);
-            p.near = onto.nearest(p.near, y);
+            // After the first step a patch hardly moves.
+            if *margin <= 0.0 || y.distance_squared(*place) >= *margin * *margin {
+                (p.near, *margin) = onto.nearest_with_margin(p.near, y);
+                *place = y;
+            }
             let Foot { distance, normal } = onto.foot(p.near, y);
             self.distances.push(distance);
             // A point counts only where both normals are within 60 degrees. Chosen by hand.
@@ -230,25 +244,31 @@ impl Fitter {
             self.normals.push(if agrees { normal } else { DVec3::ZERO });
             self.arms.push(y - centre);
         }
-        self.sorted.clear();
-        self.sorted.extend(self.distances.iter().map(|d| d.abs()));
-        self.sorted.sort_unstable_by(f64::total_cmp);
+        self.sizes.clear();
+        self.sizes.extend(self.distances.iter().map(|d| d.abs()));
+        let middle = self.sizes.len() / 2;
         // The robust scale is the median distance. Chosen by hand.
-        let knee = max(1.5 * self.sorted[self.sorted.len() / 2], noise);
-        let mut sums = NormalEquations { matrix: Matrix6::zeros(), right: Vector6::zeros(), misfit: 0.0 };
+        let (_, median, _) = self.sizes.select_nth_unstable_by(middle, f64::total_cmp);
+        let knee = max(1.5 * *median, noise);
+        let (mut matrix, mut right, mut misfit) = ([[0.0; 6]; 6], [0.0; 6], 0.0);
         for (k, p) in points.iter().enumerate() {
             let (distance, n) = (self.distances[k], self.normals[k]);
             let share = p.weight / total;
             let square = (distance / knee) * (distance / knee);
             let weight = share / ((1.0 + square) * (1.0 + square));
             let lever = self.arms[k].cross(n);
-            let row = Vector6::new(lever.x, lever.y, lever.z, n.x, n.y, n.z);
-            sums.matrix.syger(weight, &row, &row, 1.0);
-            sums.right.axpy(weight * distance, &row, 1.0);
+            let row = [lever.x, lever.y, lever.z, n.x, n.y, n.z];
+            for i in 0..6 {
+                let weighted = weight * row[i];
+                for j in 0..6 {
+                    matrix[i][j] += weighted * row[j];
+                }
+                right[i] += weighted * distance;
+            }
             // The misfit of a point is at most that at three knees. Chosen by hand.
-            sums.misfit += share * square.min(9.0) * knee * knee;
+            misfit += share * square.min(9.0) * knee * knee;
         }
-        sums
+        NormalEquations { matrix: Matrix6::from(matrix), right: Vector6::from(right), misfit }
     }
 }
 
