@@ -21,6 +21,21 @@ const AROUND: f64 = 0.1;
 /// Least ratio of areas whose distortion is told apart: triangles whose corners have one image have the area 0.
 const LEAST_AREA: f64 = 1e-6;
 
+/// The share of the vertices of the first map's source level, 0 to 1, whose images under both maps are different ones, of those that the other
+/// source level has as well; 1 where there are none. The maps are between levels of the same two meshes.
+pub fn share_elsewhere([one, other]: [&LevelImages; 2]) -> f64 {
+    let place = |map: &LevelImages, v: VertexId| map.target_from_source[v].position(&map.levels[1].mesh);
+    let [from, to] = [one, other].map(|map| &map.levels[0].vertices);
+    let (mut common, mut elsewhere) = (0, 0);
+    for (v, full) in from.iter_enumerated() {
+        if let Ok(w) = to.binary_search(full) {
+            common += 1;
+            elsewhere += usize::from(place(one, v).distance(place(other, w)) > ELSEWHERE);
+        }
+    }
+    if common > 0 { elsewhere as f64 / common as f64 } else { 1.0 }
+}
+
 /// Maps of coarse levels of the same two meshes.
 pub(super) struct SeenMaps {
     /// The number of the source's vertices without own points: a vertex with a larger number is another one in every round.
@@ -181,6 +196,20 @@ mod tests {
         let wrung = mesh.vertices().filter(|v| (0.05..0.15).contains(&mesh.positions()[*v].z.abs()));
         let off = |v: VertexId| images.target_from_source[v].position(mesh).distance(mesh.positions()[v]);
         wrung.map(off).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn images_are_elsewhere_on_the_half_that_is_wrung() {
+        let (level, _) = long_body();
+        let [up, down] = [1.0, -1.0].map(|sign| wrung(&level, sign));
+        let itself = LevelImages::of_itself(&level);
+        let share = |one: &LevelImages, other: &LevelImages| share_elsewhere([one, other]);
+        assert_eq!(share(&up, &up), 0.0);
+        assert_eq!(share(&itself, &up), share(&up, &itself));
+        // About the axis and near the middle hardly anything moves.
+        let [above, below] = [share(&itself, &up), share(&itself, &down)];
+        assert!((0.3..0.5).contains(&above) && (above - below).abs() < 0.02, "{above} {below}");
+        assert!((share(&up, &down) - above - below).abs() < 1e-12);
     }
 
     #[test]

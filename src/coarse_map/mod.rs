@@ -18,6 +18,7 @@ mod rims;
 mod skin;
 pub mod unrelaxed;
 
+pub use best_images::share_elsewhere;
 pub use error::CoarseMapError;
 pub use landmarked_mesh::{LEAST_PER_LANDMARK, LandmarkedMesh};
 pub use mesh_with_coarse::{MeshWithCoarse, both as coarse_levels, coarse_landmarks};
