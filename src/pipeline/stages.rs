@@ -29,17 +29,17 @@ impl PipelineOptions {
                 (TargetConeMetric, 1.5),
                 (Transfer, 1.0),
             ]),
-            // Whether there are poses is not known yet: the means of three pairs of poses, 48 % of whose time goes to cones, and five others.
+            // Whether there are poses is not known yet: the means of three pairs of poses, 34 % of whose time goes to cones, and five others.
             (Method::Relaxed, false, true) => planned(&[
                 (Landmarks, 0.6),
-                (Findings, 3.0),
-                (ClassSearch, if self.base == Base::Qem { 3.0 } else { 21.0 }),
-                (OwnCones, 26.0),
-                (Relaxation, 44.0),
-                (Certificate, 0.1),
+                (Findings, 3.5),
+                (ClassSearch, if self.base == Base::Qem { 3.5 } else { 24.0 }),
+                (OwnCones, 18.0),
+                (Relaxation, 48.0),
+                (Certificate, 0.2),
                 (Composition, 0.8),
-                (SourceConeMetric, 1.3),
-                (TargetConeMetric, 1.2),
+                (SourceConeMetric, 1.5),
+                (TargetConeMetric, 1.4),
                 (Transfer, 2.0),
             ]),
             (Method::Relaxed, true, _) => planned(&[
