@@ -1,5 +1,6 @@
 //! The pipeline from landmarks to a map: options, the order of the stages, the report. No other module knows the order of the stages.
 
+mod attempt;
 mod borders;
 mod error;
 mod findings;
@@ -13,6 +14,7 @@ mod previews;
 mod relaxed;
 mod report;
 mod result;
+mod second_look;
 mod simplification;
 mod stages;
 mod thesis;

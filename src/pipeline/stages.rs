@@ -1,6 +1,6 @@
 //! The stages of a run, in their order, with their usual times.
 
-use super::parametrise::{has_own_cones, has_own_cones_of_poses};
+use super::attempt::{has_own_cones, has_own_cones_of_poses};
 use super::{Base, Method, PipelineOptions};
 use crate::monitor::{PlannedStage, Stage};
 
