@@ -135,6 +135,7 @@ impl<'a> Owners<'a> {
 }
 
 /// Both meshes with own landmarks after the user's, and the coarse map of all.
+#[derive(Clone)]
 pub struct OwnCones<'a> {
     full: &'a [LandmarkedMesh; 2],
     map: CoarseMap<'a>,
@@ -156,9 +157,21 @@ impl OwnCones<'_> {
         options: &MultilevelOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<Option<Self>, Cancelled> {
+        let finer = self.finer(own.finer_vertices, options, monitor)?;
+        Ok(finer.filter(|finer| finer.map.is_of_one_body()))
+    }
+
+    /// The same on a level with at least this many vertices; `None` where there are none between the coarse level and the full meshes, or
+    /// where there is no map.
+    fn finer(
+        self,
+        vertices: usize,
+        options: &MultilevelOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<Self>, Cancelled> {
         let Self { full, mut map } = self;
-        match on_finer_level(&mut map, own, options, monitor) {
-            Ok(is_of_one_body) => Ok(is_of_one_body.then_some(Self { full, map })),
+        match map.refine_to(vertices, options, monitor) {
+            Ok(is_finer) => Ok(is_finer.then_some(Self { full, map })),
             Err(MapError::Cancelled(stop)) => Err(stop),
             Err(_) => Ok(None),
         }
@@ -437,7 +450,9 @@ impl<'a> Adding<'_, 'a> {
         if !self.may_go_on(0, monitor) {
             return Ok(best);
         }
-        let Some(mut last) = self.finer(&best, self.own.finer_vertices, monitor)? else { return Ok(best) };
+        let Some(mut last) = self.finer(best.clone(), self.own.finer_vertices, monitor)? else {
+            return Ok(best);
+        };
         monitor.preview(&last.map);
         // Patches may tell that there are two bodies; their limbs are placed well enough.
         while last.map.is_of_poses() && self.may_go_on(0, monitor) {
@@ -446,7 +461,7 @@ impl<'a> Adding<'_, 'a> {
             let Some(next) = self.with_pairs(&points, self.settled(self.own.drawn_once()), monitor)? else {
                 break;
             };
-            let Some(next) = self.finer(&next, self.own.finer_vertices, monitor)? else { break };
+            let Some(next) = self.finer(next, self.own.finer_vertices, monitor)? else { break };
             if !next.map.is_of_poses() || next.mean_log() >= CREDIBLE * last.mean_log() {
                 break;
             }
@@ -456,21 +471,14 @@ impl<'a> Adding<'_, 'a> {
         Ok(last)
     }
 
-    /// The same on a level with at least this many vertices; `None` where there are none between the coarse level and the full meshes, or
-    /// where there is no map.
+    /// The same on a level with at least this many vertices ([`OwnCones::finer`]).
     fn finer(
         &self,
-        found: &OwnCones<'a>,
+        found: OwnCones<'a>,
         vertices: usize,
         monitor: &mut dyn Monitor,
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
-        let part = &mut Portion::new(monitor, self.done(0.0), self.done(0.0));
-        let mut map = found.map.clone();
-        match map.refine_to(vertices, self.multilevel, part) {
-            Ok(is_finer) => Ok(is_finer.then_some(OwnCones { full: found.full, map })),
-            Err(MapError::Cancelled(stop)) => Err(stop),
-            Err(_) => Ok(None),
-        }
+        found.finer(vertices, self.multilevel, &mut Portion::new(monitor, self.done(0.0), self.done(0.0)))
     }
 
     /// The search of the next round. Between poses of one body twists are judged in every round, or legs stay turned.
@@ -482,7 +490,7 @@ impl<'a> Adding<'_, 'a> {
         let Some(best) = best.filter(|best| best.map.is_of_poses()) else { return Ok(self.own.drawn_once()) };
         let is_one_body = match self.is_one_body {
             Some(known) => known,
-            None => match self.finer(best, ONE_LEVEL, monitor)? {
+            None => match self.finer(best.clone(), ONE_LEVEL, monitor)? {
                 Some(finer) => *self.is_one_body.insert(finer.map.is_of_one_body()),
                 None => true,
             },
