@@ -24,7 +24,7 @@ async function told(page: Page): Promise<string[]> {
   return all.evaluateAll((parts) => parts.map((part) => part.textContent));
 }
 
-/** A picture of both views. The browser may blend the shadow of a button over them otherwise by 1, so that there is none. */
+/** A picture of both views, without the page's own parts over them: the browser may blend the edge of a button otherwise by 1. */
 async function drawn(page: Page): Promise<Buffer> {
   await page.mouse.move(640, 5);
   await page.evaluate(
@@ -33,7 +33,7 @@ async function drawn(page: Page): Promise<Buffer> {
         requestAnimationFrame(() => requestAnimationFrame(resolve));
       }),
   );
-  return page.locator('#canvas').screenshot({ style: '* { box-shadow: none !important; }' });
+  return page.locator('#canvas').screenshot({ style: 'body :not(:has(#canvas), #canvas) { visibility: hidden !important; }' });
 }
 
 /** The sentence of the status line about the place in the middle of the source. */
