@@ -323,11 +323,12 @@ fn alternatives(known: &Known, found: &LandmarkMatch) -> String {
 
 fn described(candidate: &Candidate, [straight, exchanged]: &[Fit; 2]) -> String {
     format!(
-        " score {:.3} log {:.3} remoteness {:.4} relief {:.4} orders {:.2} unmatched {:?} | error {:5.2} % wrong {:2} | exchanged {:5.2} % {:2}",
+        " score {:.3} log {:.3} remoteness {:.4} relief {:.4} patches {:.3} orders {:.2} unmatched {:?} | error {:5.2} % wrong {:2} | exchanged {:5.2} % {:2}",
         candidate.score,
         candidate.mean_log,
         candidate.remoteness,
         candidate.relief,
+        candidate.patch_fit,
         candidate.agreement,
         candidate.unmatched,
         100.0 * straight.error,

@@ -96,6 +96,8 @@ pub struct CandidateReport {
     pub remoteness: f64,
     /// The relief of the pairs, see [`Candidate::relief`].
     pub relief: f64,
+    /// The fit of patches, see [`Candidate::patch_fit`].
+    pub patch_fit: f64,
     /// The agreement of the pairs, see [`Candidate::agreement`].
     pub agreement: f64,
     /// Number of ends of limbs without a partner, on the source and on the target.
@@ -237,6 +239,7 @@ impl InFileNumbers<'_> {
             mean_log: candidate.mean_log,
             remoteness: candidate.remoteness,
             relief: candidate.relief,
+            patch_fit: candidate.patch_fit,
             agreement: candidate.agreement,
             unmatched: candidate.unmatched,
             difference: candidate.difference.as_ref().map(|difference| DifferenceReport {

@@ -9,11 +9,15 @@ use crate::landmarks::MeshSide;
 use crate::math::barycentric::interpolated;
 use crate::mesh::{SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion};
+use crate::registration::mean_fit::mean_fit;
+use crate::registration::patch_fit::OrientedSurface;
+use crate::registration::rigid_patches::{MappedLevel, WeightedLevel};
 use crate::surface_map::MapError;
 use typed_index_collections::TiSlice;
 
-/// A coarse map with its measures.
-pub(super) struct Judged {
+/// Measures of a coarse map.
+#[derive(Clone, Copy)]
+pub(super) struct Measures {
     /// Mean log density of the map; 0 for an isometry.
     pub(super) mean_log: f64,
     /// Mean difference of a point's and its image's mean distance to their surfaces, in units of the root of the area, with both bodies
@@ -21,6 +25,14 @@ pub(super) struct Judged {
     pub(super) remoteness: f64,
     /// Mean difference of a point's and its image's height above their smoothed surfaces, in units of the root of the area.
     pub(super) relief: f64,
+}
+
+/// A coarse map with its measures.
+pub(super) struct Judged {
+    /// Those that tell whether it promises, too.
+    pub(super) measures: Measures,
+    /// How well patches of the source fit the target near their images when each is moved rigidly, 0 to 1.
+    pub(super) patch_fit: f64,
     /// The map.
     pub(super) images: LevelImages,
 }
@@ -31,7 +43,7 @@ pub(super) fn judge(
     shapes: [&Shape; 2],
     pairs: &[[VertexId; 2]],
     options: &MatchOptions,
-    promises: impl Fn(&Judged) -> bool,
+    promises: impl Fn(&Measures) -> bool,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<Judged>, Cancelled> {
     let landmarked = |side: MeshSide| {
@@ -57,19 +69,25 @@ pub(super) fn judge(
         Err(_) => return Ok(None),
     };
     let mut map = chosen.map;
-    let first = measured(shapes, &full, &map);
-    if !first.as_ref().is_some_and(promises) {
-        return Ok(first);
+    let mut found = measured(shapes, &full, &map);
+    if found.as_ref().is_some_and(|(first, _)| promises(first)) {
+        match map.relax(&options.relaxation, &mut Portion::new(monitor, 0.8, 1.0)) {
+            Err(MapError::Cancelled(stop)) => return Err(stop),
+            Err(_) => return Ok(None),
+            Ok(()) => found = measured(shapes, &full, &map),
+        }
     }
-    match map.relax(&options.relaxation, &mut Portion::new(monitor, 0.8, 1.0)) {
-        Err(MapError::Cancelled(stop)) => Err(stop),
-        Err(_) => Ok(None),
-        Ok(()) => Ok(measured(shapes, &full, &map)),
-    }
+    let Some((measures, images)) = found else { return Ok(None) };
+    let patch_fit = patch_fit(&full, &images, options, &mut Portion::new(monitor, 1.0, 1.0))?;
+    Ok(Some(Judged { measures, patch_fit, images }))
 }
 
-/// A coarse map with its measures; `None` where a vertex has no image.
-fn measured(shapes: [&Shape; 2], full: &[LandmarkedMesh; 2], map: &CoarseMap<'_>) -> Option<Judged> {
+/// The measures of a coarse map, and its images; `None` where a vertex has none.
+fn measured(
+    shapes: [&Shape; 2],
+    full: &[LandmarkedMesh; 2],
+    map: &CoarseMap<'_>,
+) -> Option<(Measures, LevelImages)> {
     let images = map.images()?;
     let means = shapes.map(|shape| shape.mean_remoteness);
     let common = (means[0] * means[1]).sqrt();
@@ -77,7 +95,21 @@ fn measured(shapes: [&Shape; 2], full: &[LandmarkedMesh; 2], map: &CoarseMap<'_>
     let relief = Field { of: |shape| &shape.relief, scales: [1.0; 2] };
     let [remoteness, relief] =
         [remoteness, relief].map(|field| mean_difference(shapes, field, full, &images));
-    Some(Judged { mean_log: map.mean_log, remoteness, relief, images })
+    Some((Measures { mean_log: map.mean_log, remoteness, relief }, images))
+}
+
+/// How well patches of the source fit the target near their images.
+fn patch_fit(
+    full: &[LandmarkedMesh; 2],
+    images: &LevelImages,
+    options: &MatchOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<f64, Cancelled> {
+    let [own, onto] = full.each_ref().map(|full| OrientedSurface::new(&full.refined.mesh));
+    let weights = images.weights();
+    let [source, target] = [0, 1].map(|k| WeightedLevel { level: &images.levels[k], weights: weights[k] });
+    let seen = MappedLevel::new(source, target, images.target_from_source.iter().copied());
+    mean_fit([&own, &onto], &seen, &options.patches, monitor)
 }
 
 /// Values at the vertices of each body's level, to be scaled by these factors.
@@ -128,10 +160,23 @@ mod tests {
         thin.remoteness.iter_mut().for_each(|mean| *mean *= 1.3);
         let judged = |onto: &Shape| judge([&shape, onto], &pairs, &options, |_| true, &mut Silent);
         let mean = shape.mean_remoteness;
-        let as_it_is = judged(&thin).unwrap().unwrap().remoteness;
+        let as_it_is = judged(&thin).unwrap().unwrap().measures.remoteness;
         thin.mean_remoteness *= 1.3;
-        let in_proportion = judged(&thin).unwrap().unwrap().remoteness;
+        let in_proportion = judged(&thin).unwrap().unwrap().measures.remoteness;
         assert!(in_proportion < 0.1 * as_it_is && as_it_is > 0.1 * mean, "{in_proportion} {as_it_is}");
+    }
+
+    #[test]
+    fn patches_fit_where_limbs_go_to_their_own() {
+        let (shape, options) = (shape(&four_footed()), MatchOptions::default());
+        let ends: Vec<VertexId> = shape.main(&options).iter().map(|&k| shape.marks[k].vertex).collect();
+        let fit = |shift: usize| {
+            let pairs: Vec<[VertexId; 2]> =
+                (0..ends.len()).map(|k| [ends[k], ends[(k + shift) % ends.len()]]).collect();
+            judge([&shape; 2], &pairs, &options, |_| true, &mut Silent).unwrap().unwrap().patch_fit
+        };
+        let (right, others) = (fit(0), [1, 2, 3].map(fit));
+        assert!(right > 0.5 && others.iter().all(|other| *other < 0.6 * right), "{right} {others:?}");
     }
 
     #[test]
@@ -142,13 +187,13 @@ mod tests {
         let pairs: Vec<[VertexId; 2]> =
             (0..ends.len()).map(|k| [ends[k], ends[(k + 1) % ends.len()]]).collect();
         let judged = |promises: bool| {
-            judge([&shape; 2], &pairs, &options, |_| promises, &mut Silent).unwrap().unwrap()
+            judge([&shape; 2], &pairs, &options, |_| promises, &mut Silent).unwrap().unwrap().measures
         };
         let [short, long] = [false, true].map(judged);
         assert!(long.mean_log < 0.98 * short.mean_log, "{} {}", long.mean_log, short.mean_log);
         // What promises is known before.
         let judged =
             judge([&shape; 2], &pairs, &options, |first| first.mean_log < short.mean_log, &mut Silent);
-        assert_eq!(judged.unwrap().unwrap().mean_log, short.mean_log);
+        assert_eq!(judged.unwrap().unwrap().measures.mean_log, short.mean_log);
     }
 }

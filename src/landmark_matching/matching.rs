@@ -4,11 +4,11 @@
 //! their distances and by the orders in which shortest paths lead to them (`search`). The best are judged by their coarse maps
 //! (`judge`), then changed a little as long as that helps (`moves`). The verdict compares the best with those that differ from it.
 
-use super::candidate::{Candidate, PictureOnMesh, score};
+use super::candidate::{Candidate, PictureOnMesh, score_of_measures};
 use super::candidates::{cheapest, chosen};
 use super::heads::with_twins;
 use super::input::MatchInput;
-use super::judge::{Judged, judge};
+use super::judge::{Measures, judge};
 use super::likeness::uncrossed;
 use super::moves::moves;
 use super::options::MatchOptions;
@@ -18,6 +18,7 @@ use super::shape::{Body, Shape};
 use super::sharpening::sharpen;
 use super::verdict::{Found, Verdict, verdict};
 use crate::landmarks::MeshSide;
+use crate::math::scalar::min;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Stage};
 
@@ -119,8 +120,8 @@ fn check(input: MatchInput<'_>) -> Result<(), MatchError> {
     Ok(())
 }
 
-/// The candidate of an assignment; `None` where it has no map. Its map is relaxed to the end where it scores less than `bound` after a short
-/// relaxation.
+/// The candidate of an assignment; `None` where it has no map. Its map is relaxed to the end where it scores less than `bound`, without the fit
+/// of patches, after a short relaxation.
 fn candidate(
     shapes: [&Shape; 2],
     assignment: Assignment,
@@ -130,7 +131,7 @@ fn candidate(
 ) -> Result<Option<Candidate>, Cancelled> {
     let vertices = |pair: &[usize; 2]| MeshSide::BOTH.map(|side| shapes[side].marks[pair[side]].vertex);
     let pairs: Vec<[VertexId; 2]> = assignment.pairs.iter().map(vertices).chain(assignment.between).collect();
-    let promises = |judged: &Judged| score(&assignment, judged) < bound;
+    let promises = |first: &Measures| score_of_measures(&assignment, first) < bound;
     let judged = judge(shapes, &pairs, options, promises, monitor)?;
     Ok(judged.map(|judged| Candidate::new(shapes, assignment, judged)))
 }
@@ -160,8 +161,9 @@ impl Search<'_> {
         Ok(is_best)
     }
 
+    /// The least score so far without the fit of patches.
     fn least_score(&self) -> f64 {
-        self.found.first().map_or(f64::INFINITY, |best| best.score)
+        self.found.iter().map(Candidate::score_without_patches).fold(f64::INFINITY, min)
     }
 
     /// Judges the most promising assignments, and more where these are poor.

@@ -103,7 +103,8 @@ pub(super) fn verdict(
         return Verdict::Mirrored { score: image.score };
     }
     let unknown = || Verdict::Unknown { places: shapes[0].far_places() };
-    let Some(best) = candidates.first().filter(|best| best.score < limits.unknown_score) else {
+    let Some(best) = candidates.first().filter(|best| best.score_without_patches() < limits.unknown_score)
+    else {
         return unknown();
     };
     let parts = |c: &Candidate| c.difference.as_ref().is_some_and(|d| d.share > limits.parting);
@@ -123,11 +124,11 @@ pub(super) fn verdict(
     } else if best.assignment.keeps_sides || leads_by(limits.clear_lead) {
         best.score_without_remoteness() < limits.sure_score + settled
     } else {
-        best.score < limits.sure_score_without_sides + settled
+        best.score_without_patches() < limits.sure_score_without_sides + settled
     };
     let fits = scores_well && best.agreement >= limits.agreement;
     // One pair less is enough for a map that is nearly an isometry, as that of a body with few ends onto another pose of it.
-    let isometric = best.score < limits.sure_score_without_sides;
+    let isometric = best.score_without_patches() < limits.sure_score_without_sides;
     let enough = clear + usize::from(isometric) >= limits.least_pairs;
     if fits && near.is_none() && enough {
         return Verdict::Sure;

@@ -126,7 +126,7 @@ impl<'a> MappedLevel<'a> {
 }
 
 /// Patches between two questions to the monitor: some milliseconds.
-const ASKED_EVERY: usize = 64;
+pub(super) const ASKED_EVERY: usize = 64;
 
 /// Registers patches around the vertices of a level to the other surface. Both areas are 1.
 ///
@@ -140,9 +140,7 @@ pub fn register(
 ) -> Result<Registered, Cancelled> {
     monitor.step(Step::default())?;
     let weights = spread(own, level, options.spacing);
-    // Every vertex is in many patches, which all start from here.
-    let near = level.mesh.vertices().map(|v| onto.nearest(level.near[v], level.images[v])).collect();
-    let mut patches = Patches { own, level, weights: &weights, near, reached: ti_vec![None; weights.len()] };
+    let mut patches = Patches::new([own, onto], level, &weights);
     let (mut fitter, mut patch) = (Fitter::default(), Vec::new());
     let mut constraints = Vec::new();
     let (mut fitted, mut all) = (0.0, 0.0);
@@ -154,9 +152,7 @@ pub fn register(
         for radius in options.radii {
             patches.around(v, radius, &mut patch);
             all += weights[v];
-            let fit =
-                if patch.len() < LEAST_POINTS { None } else { fitter.fit(&mut patch, onto, &options.fit) };
-            if let Some(fit) = fit.filter(|fit| fit.centre.distance(level.images[v]) < FARTHEST) {
+            if let Some(fit) = fitted_near(&mut fitter, &mut patch, onto, &options.fit) {
                 sum.add(&fit, level.images[v], options.fit.noise);
                 fitted += weights[v] * trust(&fit, options.fit.noise);
             }
@@ -167,15 +163,33 @@ pub fn register(
     Ok(Registered { constraints, fit: if all > 0.0 { fitted / all } else { 0.0 } })
 }
 
+/// The registration of a patch; `None` where it has too few points, no fit, or none near the image of its centre.
+pub(super) fn fitted_near(
+    fitter: &mut Fitter,
+    patch: &mut [PatchPoint],
+    onto: &OrientedSurface<'_>,
+    options: &FitOptions,
+) -> Option<PatchFit> {
+    if patch.len() < LEAST_POINTS {
+        return None;
+    }
+    let image = patch[0].image;
+    fitter.fit(patch, onto, options).filter(|fit| fit.centre.distance(image) < FARTHEST)
+}
+
 /// How well a patch fits, from 0 to 1.
-fn trust(fit: &PatchFit, noise: f64) -> f64 {
+pub(super) fn trust(fit: &PatchFit, noise: f64) -> f64 {
     let square = noise * noise;
     square / (square + fit.misfit)
 }
 
 /// Samples vertices about `spacing` apart, or as far as the level's are; returns the area that each one stands for, 0 for vertices that
 /// are not taken and for those on caps. One vertex is taken of each cell of a grid and each main direction of the normal.
-fn spread(own: &OrientedSurface<'_>, level: &MappedLevel<'_>, spacing: f64) -> TiVec<VertexId, f64> {
+pub(super) fn spread(
+    own: &OrientedSurface<'_>,
+    level: &MappedLevel<'_>,
+    spacing: f64,
+) -> TiVec<VertexId, f64> {
     let areas = level.mesh.vertex_areas();
     let cell = |v: VertexId| {
         let at = (level.mesh.positions()[v] / spacing).floor();
@@ -195,7 +209,7 @@ fn spread(own: &OrientedSurface<'_>, level: &MappedLevel<'_>, spacing: f64) -> T
 }
 
 /// The patches of one mesh.
-struct Patches<'a> {
+pub(super) struct Patches<'a> {
     own: &'a OrientedSurface<'a>,
     level: &'a MappedLevel<'a>,
     weights: &'a TiSlice<VertexId, f64>,
@@ -205,10 +219,20 @@ struct Patches<'a> {
     reached: TiVec<VertexId, Option<(VertexId, u64)>>,
 }
 
-impl Patches<'_> {
+impl<'a> Patches<'a> {
+    pub(super) fn new(
+        [own, onto]: [&'a OrientedSurface<'a>; 2],
+        level: &'a MappedLevel<'a>,
+        weights: &'a TiSlice<VertexId, f64>,
+    ) -> Self {
+        // Every vertex is in many patches, which all start from here.
+        let near = level.mesh.vertices().map(|v| onto.nearest(level.near[v], level.images[v])).collect();
+        Self { own, level, weights, near, reached: ti_vec![None; weights.len()] }
+    }
+
     /// Fills `patch` with the points connected to `centre` within the radius, the centre first. Points whose images are far
     /// away or that face the other way are left out.
-    fn around(&mut self, centre: VertexId, radius: f64, patch: &mut Vec<PatchPoint>) {
+    pub(super) fn around(&mut self, centre: VertexId, radius: f64, patch: &mut Vec<PatchPoint>) {
         let Self { own, level, weights, .. } = *self;
         let positions = level.mesh.positions();
         let distance = |v: VertexId| positions[v].distance(positions[centre]);

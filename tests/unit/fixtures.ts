@@ -110,6 +110,7 @@ export function candidate(...pairs: readonly (readonly [number, number])[]): Can
     mean_log: 0.2,
     remoteness: 0.1,
     relief: 0.02,
+    patch_fit: 0.2,
     agreement: 0.9,
     unmatched: [0, 0],
     difference: null,
