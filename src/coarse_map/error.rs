@@ -1,7 +1,7 @@
 //! Why there is no coarse map.
 
 use crate::layout::LayoutError;
-use crate::monitor::Cancelled;
+use crate::monitor::{Cancelled, OrStop};
 use crate::surface_map::MapError;
 
 /// Why there is no coarse map.
@@ -17,6 +17,15 @@ pub enum CoarseMapError {
     /// A map could not be relaxed.
     #[error("map: {0}")]
     Map(MapError),
+}
+
+impl OrStop for CoarseMapError {
+    fn or_stop(self) -> Result<Self, Cancelled> {
+        match self {
+            Self::Cancelled(stop) => Err(stop),
+            error => Ok(error),
+        }
+    }
 }
 
 impl From<LayoutError> for CoarseMapError {

@@ -15,7 +15,7 @@ use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::Level;
 use crate::mesh::face_weights::{FaceWeight, FaceWeights};
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion, Silent, Step};
+use crate::monitor::{Cancelled, Monitor, OrStop, Portion, Silent, Step};
 use crate::registration::patch_fit::OrientedSurface;
 use crate::registration::rigid_patches::{self, MappedLevel, RigidPatchOptions, WeightedLevel};
 use crate::surface_map::MapError;

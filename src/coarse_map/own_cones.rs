@@ -10,7 +10,6 @@
 use super::best_images::SeenMaps;
 use super::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use super::distance_guess::{self, Guess};
-use super::error::CoarseMapError;
 use super::landmarked_mesh::LandmarkedMesh;
 use super::limb_ends;
 use super::mesh_with_coarse::{self, MeshWithCoarse};
@@ -19,7 +18,7 @@ use super::options::MultilevelOptions;
 use super::own_points::{OwnPair, PointChoice, pairs, with};
 use crate::layout::SearchOptions;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion};
+use crate::monitor::{Cancelled, Monitor, Portion, unless_stopped};
 use crate::surface_map::relaxation::map_relaxation::MapRelaxationOptions;
 use crate::surface_map::{ConeSurface, Embedding, MapError, certify};
 use std::cell::OnceCell;
@@ -170,11 +169,8 @@ impl OwnCones<'_> {
         monitor: &mut dyn Monitor,
     ) -> Result<Option<Self>, Cancelled> {
         let Self { full, mut map } = self;
-        match map.refine_to(vertices, options, monitor) {
-            Ok(is_finer) => Ok(is_finer.then_some(Self { full, map })),
-            Err(MapError::Cancelled(stop)) => Err(stop),
-            Err(_) => Ok(None),
-        }
+        let is_finer = unless_stopped(map.refine_to(vertices, options, monitor))?;
+        Ok(is_finer.unwrap_or(false).then_some(Self { full, map }))
     }
 
     /// The map of the full meshes; `None` where it is not found or not certified.
@@ -188,11 +184,7 @@ impl OwnCones<'_> {
     ) -> Result<Option<Refined>, Cancelled> {
         let Self { full, map } = self;
         let surface = map.surface.clone();
-        let embeddings = match solve_fine(map, options, monitor) {
-            Ok(embeddings) => embeddings,
-            Err(MapError::Cancelled(stop)) => return Err(stop),
-            Err(_) => return Ok(None),
-        };
+        let Some(embeddings) = unless_stopped(solve_fine(map, options, monitor))? else { return Ok(None) };
         let certified = |k: usize| certify(full[k].parametrised(&embeddings[k]), &surface).bijective;
         let bijective = certified(0) && certified(1);
         Ok(bijective.then(|| Refined { surface, embeddings, full: full.clone() }))
@@ -589,16 +581,12 @@ impl<'a> Adding<'_, 'a> {
         let options =
             ClassSearchOptions { multilevel: judged, search: &effort.search, choice: ClassChoice::Best };
         let looking = Portion::new(monitor, placed, chosen);
-        match choose_class(levels, options, &mut looking.unseen()) {
-            Ok(best) => {
-                let part = &mut Portion::new(monitor, chosen, done);
-                let relaxed = MultilevelOptions { coarse: effort.relaxation, ..*multilevel };
-                Ok(Some(OwnCones { full: with_own, map: finished(best.map, &relaxed, part)? }))
-            }
-            Err(CoarseMapError::Cancelled(stop)) => Err(stop),
-            // There is no map with these points, but there may be one with others.
-            Err(_) => Ok(None),
-        }
+        // Where there is no map with these points, there may be one with others.
+        let best = unless_stopped(choose_class(levels, options, &mut looking.unseen()))?;
+        let Some(best) = best else { return Ok(None) };
+        let part = &mut Portion::new(monitor, chosen, done);
+        let relaxed = MultilevelOptions { coarse: effort.relaxation, ..*multilevel };
+        Ok(Some(OwnCones { full: with_own, map: finished(best.map, &relaxed, part)? }))
     }
 }
 
@@ -646,8 +634,6 @@ fn finished<'a>(
     options: &MultilevelOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<CoarseMap<'a>, Cancelled> {
-    match map.finish(options, monitor) {
-        Err(MapError::Cancelled(stop)) => Err(stop),
-        _ => Ok(map),
-    }
+    unless_stopped(map.finish(options, monitor))?;
+    Ok(map)
 }

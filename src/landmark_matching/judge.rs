@@ -4,15 +4,14 @@ use super::options::MatchOptions;
 use super::shape::Shape;
 use crate::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use crate::coarse_map::multilevel::{CoarseMap, LevelImages};
-use crate::coarse_map::{CoarseMapError, LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse};
+use crate::coarse_map::{LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse};
 use crate::landmarks::MeshSide;
 use crate::math::barycentric::interpolated;
 use crate::mesh::{SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion};
+use crate::monitor::{Cancelled, Monitor, Portion, unless_stopped};
 use crate::registration::mean_fit::mean_fit;
 use crate::registration::patch_fit::OrientedSurface;
 use crate::registration::rigid_patches::{MappedLevel, WeightedLevel};
-use crate::surface_map::MapError;
 use typed_index_collections::TiSlice;
 
 /// Measures of a coarse map.
@@ -63,21 +62,14 @@ pub(super) fn judge(
         search: &options.search,
         choice: ClassChoice::Best,
     };
-    let chosen = match choose_class(&levels, class, &mut Portion::new(monitor, 0.0, 0.8).unseen()) {
-        Ok(chosen) => chosen,
-        Err(CoarseMapError::Cancelled(stop)) => return Err(stop),
-        Err(_) => return Ok(None),
-    };
-    let mut map = chosen.map;
-    let mut found = measured(shapes, &full, &map);
-    if found.as_ref().is_some_and(|(first, _)| promises(first)) {
-        match map.relax(&options.relaxation, &mut Portion::new(monitor, 0.8, 1.0)) {
-            Err(MapError::Cancelled(stop)) => return Err(stop),
-            Err(_) => return Ok(None),
-            Ok(()) => found = measured(shapes, &full, &map),
-        }
+    let chosen = unless_stopped(choose_class(&levels, class, &mut Portion::new(monitor, 0.0, 0.8).unseen()))?;
+    let Some(mut map) = chosen.map(|chosen| chosen.map) else { return Ok(None) };
+    let mut judged = measured(shapes, &full, &map);
+    if judged.as_ref().is_some_and(|(first, _)| promises(first)) {
+        let relaxed = unless_stopped(map.relax(&options.relaxation, &mut Portion::new(monitor, 0.8, 1.0)))?;
+        judged = relaxed.and_then(|()| measured(shapes, &full, &map));
     }
-    let Some((measures, images)) = found else { return Ok(None) };
+    let Some((measures, images)) = judged else { return Ok(None) };
     let patch_fit = patch_fit(&full, &images, options, &mut Portion::new(monitor, 1.0, 1.0))?;
     Ok(Some(Judged { measures, patch_fit, images }))
 }

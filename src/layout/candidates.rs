@@ -14,7 +14,7 @@ use super::variants::{STARTS, Variant};
 use crate::landmarks::Landmarks;
 use crate::math::scalar::min;
 use crate::mesh::SurfaceMesh;
-use crate::monitor::{Monitor, Step};
+use crate::monitor::{Monitor, Step, unless_stopped};
 
 /// While the least detour is above this, another batch of starts is drawn: in 50 searches on ten pairs the layouts of the best
 /// classes had less, and those of searches that missed the best class more.
@@ -226,11 +226,7 @@ impl<'a> Candidates<'a> {
             if planner.wants_result() {
                 break;
             }
-            match twists::twisted(&of.drawing, &mut planner, twist) {
-                Ok(drawing) => drawings.extend(drawing),
-                Err(LayoutError::Cancelled(stop)) => return Err(stop.into()),
-                Err(_) => {}
-            }
+            drawings.extend(unless_stopped(twists::twisted(&of.drawing, &mut planner, twist))?.flatten());
         }
         for drawing in drawings {
             monitor.step(Step::default())?;

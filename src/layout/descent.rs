@@ -5,11 +5,10 @@
 //! detours is lowered by twists as long as one lowers it, and only the last drawing is judged.
 
 use super::drawing::{Drawing, Planner};
-use super::error::LayoutError;
 use super::joint::{complete, straighten};
 use super::twists::{self, Twist};
 use super::variants::PLAIN;
-use crate::monitor::Cancelled;
+use crate::monitor::{Cancelled, unless_stopped};
 
 /// A twist must lower the sum of the detours by this: drawings of one class differ by as much. Chosen by hand.
 const LEAST_GAIN: f64 = 0.05;
@@ -50,7 +49,8 @@ pub(super) fn straightest(
     // may take twenty times as much.
     planner.begin_together();
     while left > 0 && detour > LEAST_GAIN && !planner.wants_result() {
-        let mut twists = or_stop(twists::plausible(&best, planner, LARGEST_RATIO))?.unwrap_or_default();
+        let mut twists =
+            unless_stopped(twists::plausible(&best, planner, LARGEST_RATIO))?.unwrap_or_default();
         twists.truncate(patience);
         let Some((less, next)) = first_gain(&best, &twists, detour - LEAST_GAIN, &mut left, planner)? else {
             break;
@@ -74,7 +74,7 @@ fn first_gain(
             break;
         }
         *left -= 1;
-        let Some(Some(turned)) = or_stop(twists::twisted(of, planner, twist))? else { continue };
+        let Some(Some(turned)) = unless_stopped(twists::twisted(of, planner, twist))? else { continue };
         let detour = turned.detour(planner.distances);
         if detour < limit {
             return Ok(Some((detour, turned)));
@@ -96,21 +96,12 @@ fn redrawn(drawing: Drawing, detour: f64, planner: &mut Planner<'_>) -> Result<D
         let mut again = twists::shortest_tree(&best);
         let drawn = complete(&mut again, planner, &PLAIN).and_then(|()| straighten(&mut again, planner));
         let less = again.detour(planner.distances);
-        if or_stop(drawn)?.is_none() || less >= least {
+        if unless_stopped(drawn)?.is_none() || less >= least {
             break;
         }
         (best, least) = (again, less);
     }
     Ok(best)
-}
-
-/// Turns every error but [`Cancelled`] into `None`: there is no such drawing.
-fn or_stop<T>(outcome: Result<T, LayoutError>) -> Result<Option<T>, Cancelled> {
-    match outcome {
-        Ok(value) => Ok(Some(value)),
-        Err(LayoutError::Cancelled(stop)) => Err(stop),
-        Err(_) => Ok(None),
-    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::drawing_fault::DrawingFault;
 use super::patches::PatchFault;
-use crate::monitor::Cancelled;
+use crate::monitor::{Cancelled, OrStop};
 
 /// Why no layout was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -62,6 +62,15 @@ pub enum LayoutError {
     /// The paths do not bound discs.
     #[error("the patches are not valid: {0}")]
     Patches(#[from] PatchFault),
+}
+
+impl OrStop for LayoutError {
+    fn or_stop(self) -> Result<Self, Cancelled> {
+        match self {
+            Self::Cancelled(stop) => Err(stop),
+            error => Ok(error),
+        }
+    }
 }
 
 impl From<DrawingFault> for LayoutError {

@@ -8,7 +8,7 @@ use super::{Base, MapInput, MapResult, PipelineError, PipelineOptions};
 use crate::base_domain::BaseDomain;
 use crate::landmarks::Landmarks;
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Cancelled, Monitor, Stage, Step};
+use crate::monitor::{Cancelled, Monitor, OrStop, Stage, Step};
 use crate::surface_map::overlay::location::{Locations, locate};
 use crate::surface_map::overlay::{Overlay, OverlayError, overlay};
 use crate::surface_map::{ConeSurface, Parametrised};

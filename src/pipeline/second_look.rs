@@ -10,8 +10,7 @@ use crate::coarse_map::multilevel::LevelImages;
 use crate::coarse_map::own_cones::{self, Owners, Refined, Rounds, Start};
 use crate::coarse_map::{LandmarkedMesh, coarse_levels, share_elsewhere};
 use crate::layout::LayoutError;
-use crate::monitor::{Monitor, Portion, Stage};
-use crate::surface_map::MapError;
+use crate::monitor::{Monitor, Portion, Stage, unless_stopped};
 
 /// With many landmarks another map between two poses of one body is taken where its mean log density on a finer level is below this many
 /// times that of the first one. Own cones that turned a limb back brought it to .49 to .80; where nothing is turned they brought it to .91
@@ -87,12 +86,10 @@ fn turned_back(
     let mut least = TURNED * first.mean_log;
     let mut finer = found.map.clone();
     let judging = &mut Portion::new(monitor, LOOKED[1], LOOKED[2]);
-    let is_better = match own_cones::on_finer_level(&mut finer, own_options, multilevel, judging) {
-        Ok(is_of_one_body) => is_of_one_body && finer.mean_log < least,
-        Err(MapError::Cancelled(stop)) => return Err(stop.into()),
-        // The first map stays.
-        Err(_) => false,
-    };
+    // Where it is lost there, the first map stays.
+    let is_of_one_body =
+        unless_stopped(own_cones::on_finer_level(&mut finer, own_options, multilevel, judging))?;
+    let is_better = is_of_one_body == Some(true) && finer.mean_log < least;
     if is_better {
         least = TURNED * finer.mean_log;
     }

@@ -7,16 +7,13 @@
 use super::prediction::predicted;
 use crate::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use crate::coarse_map::multilevel::LevelImages;
-use crate::coarse_map::{
-    CoarseMapError, LEAST_PER_LANDMARK, LandmarkedMesh, MultilevelOptions, coarse_levels,
-};
+use crate::coarse_map::{LEAST_PER_LANDMARK, LandmarkedMesh, MultilevelOptions, coarse_levels};
 use crate::landmarks::LandmarkId;
 use crate::layout::SearchOptions;
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::insertion::insert;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion, Step};
-use crate::surface_map::MapError;
+use crate::monitor::{Cancelled, Monitor, Portion, Step, unless_stopped};
 use glam::DVec3;
 use typed_index_collections::TiVec;
 
@@ -199,17 +196,10 @@ fn coarse(
     let goal = multilevel.coarse_vertices.max(LEAST_PER_LANDMARK * places.len());
     let levels = coarse_levels(&full, goal, multilevel.rims, &mut Portion::new(monitor, 0.0, 0.1))?;
     let class = ClassSearchOptions { multilevel, search, choice: ClassChoice::Best };
-    let mut map = match choose_class(&levels, class, &mut Portion::new(monitor, 0.1, 0.7).unseen()) {
-        Ok(chosen) => chosen.map,
-        Err(CoarseMapError::Cancelled(stop)) => return Err(stop),
-        Err(_) => return Ok(None),
-    };
-    match map.finish(multilevel, &mut Portion::new(monitor, 0.7, 1.0)) {
-        Err(MapError::Cancelled(stop)) => return Err(stop),
-        Err(_) => return Ok(None),
-        Ok(()) => {}
-    }
-    let Some(images) = map.images() else { return Ok(None) };
+    let chosen = unless_stopped(choose_class(&levels, class, &mut Portion::new(monitor, 0.1, 0.7).unseen()))?;
+    let Some(mut map) = chosen.map(|chosen| chosen.map) else { return Ok(None) };
+    let finished = unless_stopped(map.finish(multilevel, &mut Portion::new(monitor, 0.7, 1.0)))?;
+    let Some(images) = finished.and_then(|()| map.images()) else { return Ok(None) };
     let landmarks = [0, 1].map(|k| images.levels[k].numbers(&full[k].landmarks).collect());
     Ok(Some(Seen { images, landmarks }))
 }

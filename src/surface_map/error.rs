@@ -1,6 +1,6 @@
 //! Why there is no map.
 
-use crate::monitor::Cancelled;
+use crate::monitor::{Cancelled, OrStop};
 
 /// Why there is no map.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -43,4 +43,13 @@ pub enum MapError {
         /// Vertices of the level.
         vertices: usize,
     },
+}
+
+impl OrStop for MapError {
+    fn or_stop(self) -> Result<Self, Cancelled> {
+        match self {
+            Self::Cancelled(stop) => Err(stop),
+            error => Ok(error),
+        }
+    }
 }

@@ -10,7 +10,7 @@ use crate::math::predicates::orient2d;
 use crate::math::rigid2::Rigid2;
 use crate::math::scalar::max;
 use crate::mesh::{FaceId, HalfedgeId, SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor, Pulse};
+use crate::monitor::{Cancelled, Monitor, OrStop, Pulse};
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Anchor, Embedding, Parametrised};
 use crate::surface_map::parametrisation::fan::{Fan, Wedge};
@@ -52,12 +52,8 @@ pub enum LocateError {
     Cancelled(#[from] Cancelled),
 }
 
-impl LocateError {
-    /// The error where a vertex is lost.
-    ///
-    /// # Errors
-    /// The stop that was asked for.
-    pub fn or_stop(self) -> Result<Self, Cancelled> {
+impl OrStop for LocateError {
+    fn or_stop(self) -> Result<Self, Cancelled> {
         match self {
             Self::Cancelled(stop) => Err(stop),
             error @ Self::Lost { .. } => Ok(error),

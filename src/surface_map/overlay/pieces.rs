@@ -4,7 +4,7 @@ use crate::landmarks::MeshSide;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::signed_double_area;
 use crate::mesh::{FaceId, HalfedgeId};
-use crate::monitor::Cancelled;
+use crate::monitor::{Cancelled, OrStop};
 use crate::surface_map::parametrisation::embedding::triangle;
 use glam::DVec2;
 use typed_index_collections::TiSlice;
@@ -116,12 +116,8 @@ pub enum OverlayError {
     Cancelled(#[from] Cancelled),
 }
 
-impl OverlayError {
-    /// The error, unless it is the wish to stop.
-    ///
-    /// # Errors
-    /// The stop that was asked for.
-    pub fn or_stop(self) -> Result<Self, Cancelled> {
+impl OrStop for OverlayError {
+    fn or_stop(self) -> Result<Self, Cancelled> {
         match self {
             Self::Cancelled(stop) => Err(stop),
             error => Ok(error),

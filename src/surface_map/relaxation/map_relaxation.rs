@@ -9,7 +9,7 @@ use super::evaluation::{CountedEnergy, Evaluation};
 use crate::landmarks::MeshSide;
 use crate::math::matrix2::cofactor;
 use crate::mesh::{FaceId, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion, Pulse, Silent, Step};
+use crate::monitor::{Cancelled, Monitor, OrStop, Portion, Pulse, Silent, Step};
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
