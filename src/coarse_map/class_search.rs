@@ -5,7 +5,7 @@ use super::mesh_with_coarse::{MeshWithCoarse, coarse_landmarks};
 use super::multilevel::{CoarseMap, solve_coarse};
 use super::options::MultilevelOptions;
 use crate::layout::{self, Candidate, Candidates, LayoutError, SearchOptions, SearchReport};
-use crate::monitor::{Cancelled, Monitor, Portion};
+use crate::monitor::{Cancelled, Monitor, Portion, unless_stopped};
 use crate::surface_map::MapError;
 use serde::{Deserialize, Serialize};
 
@@ -197,12 +197,11 @@ impl Finalists<'_, '_> {
                 break;
             }
             for (_, map) in &mut rivals {
-                match map.judge_finer(self.options, monitor) {
-                    Ok(true) => {}
-                    Ok(false) => return Ok(None),
-                    Err(MapError::Cancelled(stop)) => return Err(stop.into()),
+                match unless_stopped(map.judge_finer(self.options, monitor))? {
+                    Some(true) => {}
+                    Some(false) => return Ok(None),
                     // A vertex found no place: this map loses to the others.
-                    Err(_) => map.mean_log = f64::INFINITY,
+                    None => map.mean_log = f64::INFINITY,
                 }
             }
             rivals.sort_by(|a, b| a.1.mean_log.total_cmp(&b.1.mean_log));

@@ -20,11 +20,8 @@ pub enum CoarseMapError {
 }
 
 impl OrStop for CoarseMapError {
-    fn or_stop(self) -> Result<Self, Cancelled> {
-        match self {
-            Self::Cancelled(stop) => Err(stop),
-            error => Ok(error),
-        }
+    fn is_stop(&self) -> bool {
+        matches!(self, Self::Cancelled(_))
     }
 }
 

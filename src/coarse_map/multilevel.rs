@@ -137,7 +137,7 @@ impl CoarseMap<'_> {
         self.energy == MapEnergy::POSES
     }
 
-    /// Whether it is between two poses of one body, as far as patches that were registered tell.
+    /// Whether it is between two poses of one body, or of two as alike as people are, as far as patches that were registered tell.
     pub fn is_of_one_body(&self) -> bool {
         self.is_of_poses() && self.patch_fit.iter().all(|fit| *fit >= ONE_BODY)
     }

@@ -38,9 +38,10 @@ pub struct MatchOptions {
     pub one_missing: usize,
     /// Further candidates that are judged where the best of the first ones is doubtful.
     pub more_candidates: usize,
-    /// The best of the first candidates is doubtful where its score is at least this.
+    /// The best of the first candidates is doubtful where its score, without the fit of patches, is at least this.
     pub doubtful_score: f64,
-    /// A candidate whose map scores worse than the best one's by this much after a short relaxation is not relaxed any further.
+    /// A candidate whose map scores worse than the best one's by this much after a short relaxation, both without the fit of patches, is not
+    /// relaxed any further.
     pub promising: f64,
     /// Small changes of the best candidate that are judged, at most.
     pub changes: usize,
@@ -128,7 +129,7 @@ impl Default for MatchOptions {
     }
 }
 
-/// Limits of the verdict.
+/// Limits of the verdict. Scores that are not compared with those of other candidates are without the fit of patches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VerdictLimits {
     /// Score without its remoteness from which on the best candidate is doubtful, whatever the others are.

@@ -65,11 +65,8 @@ pub enum LayoutError {
 }
 
 impl OrStop for LayoutError {
-    fn or_stop(self) -> Result<Self, Cancelled> {
-        match self {
-            Self::Cancelled(stop) => Err(stop),
-            error => Ok(error),
-        }
+    fn is_stop(&self) -> bool {
+        matches!(self, Self::Cancelled(_))
     }
 }
 

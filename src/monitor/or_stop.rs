@@ -4,11 +4,16 @@ use super::receiver::Cancelled;
 
 /// An error one of whose kinds is the wish to stop.
 pub trait OrStop: Sized {
+    /// Whether it is that one.
+    fn is_stop(&self) -> bool;
+
     /// The error, unless it is the wish to stop.
     ///
     /// # Errors
     /// The stop that was asked for.
-    fn or_stop(self) -> Result<Self, Cancelled>;
+    fn or_stop(self) -> Result<Self, Cancelled> {
+        if self.is_stop() { Err(Cancelled) } else { Ok(self) }
+    }
 }
 
 /// The value, `None` for every error but the wish to stop: there is none, but there may be another.

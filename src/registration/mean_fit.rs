@@ -52,13 +52,12 @@ pub fn mean_fit(
 
 #[cfg(test)]
 mod tests {
+    use super::super::rigid_patches::testing::{hilly, turned};
     use super::*;
-    use crate::math::scalar::{cos, sin};
-    use crate::mesh::generators::icosphere;
-    use crate::mesh::{SurfaceMesh, VertexId};
+    use crate::mesh::VertexId;
     use crate::monitor::Silent;
     use glam::{DQuat, DVec3};
-    use typed_index_collections::{TiVec, ti_vec};
+    use typed_index_collections::TiVec;
 
     const OPTIONS: MeanFitOptions = MeanFitOptions {
         spacing: 0.03,
@@ -67,23 +66,12 @@ mod tests {
         fit: FitOptions { max_steps: 8, damping: 1e-4, noise: 1e-3 },
     };
 
-    /// A ball with hills, of area near 1.
-    fn hilly() -> SurfaceMesh {
-        let ball = icosphere(4);
-        let hill =
-            |p: &DVec3| *p * 0.28 * (1.0 + 0.05 * sin(9.0 * p.x) * cos(7.0 * p.y) + 0.05 * sin(8.0 * p.z));
-        ball.with_positions(ball.positions().iter().map(hill).collect())
-    }
-
     /// The fit of the hilly ball to itself where each vertex goes to that nearest to its place turned by this.
     fn fit_of_turned(turn: DQuat) -> f64 {
         let mesh = hilly();
         let surface = OrientedSurface::new(&mesh);
         let all: TiVec<VertexId, VertexId> = mesh.vertices().collect();
-        let images: TiVec<VertexId, DVec3> = mesh.positions().iter().map(|&p| turn * p).collect();
-        let near = images.iter_enumerated().map(|(v, p)| surface.nearest(v, *p)).collect();
-        let is_on_skin = ti_vec![true; all.len()];
-        let level = MappedLevel { mesh: &mesh, vertices: &all, images, near, is_on_skin };
+        let level = turned(&mesh, &all, &surface, turn);
         mean_fit([&surface; 2], &level, &OPTIONS, &mut Silent).unwrap()
     }
 

@@ -307,21 +307,42 @@ impl SummedFit {
     }
 }
 
+/// A surface with relief, and maps of it onto itself.
 #[cfg(test)]
-mod tests {
+pub(super) mod testing {
     use super::*;
     use crate::math::scalar::{cos, sin};
     use crate::mesh::generators::icosphere;
-    use crate::monitor::Silent;
+    use glam::DQuat;
 
-    fn hilly() -> SurfaceMesh {
+    /// A ball with hills, of area near 1.
+    pub(in super::super) fn hilly() -> SurfaceMesh {
         let ball = icosphere(4);
-        let hill = |p: &DVec3| {
-            // Area near 1.
-            *p * 0.28 * (1.0 + 0.03 * sin(11.0 * p.x) * cos(9.0 * p.y) + 0.03 * sin(10.0 * p.z))
-        };
+        let hill =
+            |p: &DVec3| *p * 0.28 * (1.0 + 0.03 * sin(11.0 * p.x) * cos(9.0 * p.y) + 0.03 * sin(10.0 * p.z));
         ball.with_positions(ball.positions().iter().map(hill).collect())
     }
+
+    /// All vertices, each with its place turned by this as its image.
+    pub(in super::super) fn turned<'a>(
+        mesh: &'a SurfaceMesh,
+        all: &'a TiSlice<VertexId, VertexId>,
+        surface: &OrientedSurface<'_>,
+        turn: DQuat,
+    ) -> MappedLevel<'a> {
+        let images: TiVec<VertexId, DVec3> = mesh.positions().iter().map(|&p| turn * p).collect();
+        let near = images.iter_enumerated().map(|(v, p)| surface.nearest(v, *p)).collect();
+        let is_on_skin = ti_vec![true; all.len()];
+        MappedLevel { mesh, vertices: all, images, near, is_on_skin }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::testing::{hilly, turned};
+    use super::*;
+    use crate::monitor::Silent;
+    use glam::DQuat;
 
     /// All vertices, with images turned by a small angle about z.
     fn slid<'a>(
@@ -329,12 +350,7 @@ mod tests {
         all: &'a TiSlice<VertexId, VertexId>,
         surface: &OrientedSurface<'_>,
     ) -> MappedLevel<'a> {
-        let (c, s) = (cos(0.02), sin(0.02));
-        let turn = |p: DVec3| DVec3::new(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
-        let images: TiVec<VertexId, DVec3> = mesh.positions().iter().map(|p| turn(*p)).collect();
-        let near = images.iter_enumerated().map(|(v, p)| surface.nearest(v, *p)).collect();
-        let is_on_skin = ti_vec![true; all.len()];
-        MappedLevel { mesh, vertices: all, images, near, is_on_skin }
+        turned(mesh, all, surface, DQuat::from_rotation_z(0.02))
     }
 
     #[test]

@@ -46,10 +46,7 @@ pub enum MapError {
 }
 
 impl OrStop for MapError {
-    fn or_stop(self) -> Result<Self, Cancelled> {
-        match self {
-            Self::Cancelled(stop) => Err(stop),
-            error => Ok(error),
-        }
+    fn is_stop(&self) -> bool {
+        matches!(self, Self::Cancelled(_))
     }
 }

@@ -53,11 +53,8 @@ pub enum LocateError {
 }
 
 impl OrStop for LocateError {
-    fn or_stop(self) -> Result<Self, Cancelled> {
-        match self {
-            Self::Cancelled(stop) => Err(stop),
-            error @ Self::Lost { .. } => Ok(error),
-        }
+    fn is_stop(&self) -> bool {
+        matches!(self, Self::Cancelled(_))
     }
 }
 

@@ -117,11 +117,8 @@ pub enum OverlayError {
 }
 
 impl OrStop for OverlayError {
-    fn or_stop(self) -> Result<Self, Cancelled> {
-        match self {
-            Self::Cancelled(stop) => Err(stop),
-            error => Ok(error),
-        }
+    fn is_stop(&self) -> bool {
+        matches!(self, Self::Cancelled(_))
     }
 }
 
