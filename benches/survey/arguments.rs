@@ -28,6 +28,9 @@ pub struct Arguments {
     pub time_limit: f64,
     /// The number of landmarks that are kept of each pair, chosen by farthest points; 0 keeps all.
     pub landmarks: usize,
+    /// The number of vertices to which both meshes of a pair with a known truth are coarsened, with the same connectivity; 0 leaves them
+    /// as they are.
+    pub vertices: usize,
     /// Numbers of vertices of the coarse levels on which the table `classes` searches.
     pub levels: Vec<usize>,
     /// How much a table does beyond the usual. In `classes`: the number of twists made one after the other (1 or 2). In `orders`, `match`
@@ -53,6 +56,7 @@ impl Arguments {
             jobs: std::thread::available_parallelism().map_or(1, usize::from),
             time_limit: 150.0,
             landmarks: 0,
+            vertices: 0,
             levels: vec![600, 1000],
             depth: 1,
             options: PipelineOptions::default(),
@@ -70,6 +74,7 @@ impl Arguments {
                 "--jobs" => arguments.jobs = number() as usize,
                 "--time-limit" => arguments.time_limit = number(),
                 "--landmarks" => arguments.landmarks = number() as usize,
+                "--vertices" => arguments.vertices = number() as usize,
                 "--levels" => {
                     arguments.levels = value.split(',').map(|n| n.parse().expect("a number")).collect()
                 }

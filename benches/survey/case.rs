@@ -4,9 +4,10 @@ use crate::arguments::Arguments;
 use crate::common;
 use conemap::demo;
 use conemap::landmarks::{Landmarks, PlacedLandmarks};
+use conemap::mesh::coarsening::Level;
 use conemap::mesh::insertion::insert;
 use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
-use conemap::monitor::{Cancelled, Monitor, Stage, Step};
+use conemap::monitor::{Cancelled, Monitor, Silent, Stage, Step};
 use conemap::pipeline::{CapFaces, GroundTruth, MapInput, MapResult, PipelineOptions, findings, run};
 use cpu_time::ThreadTime;
 use glam::DVec3;
@@ -95,20 +96,19 @@ impl Case {
             vertices = thinned(&pair.source, &vertices, arguments.landmarks);
         }
         let same = pair.file.ground_truth.is_some();
-        let points = [&pair.source, &pair.target].map(|mesh| (mesh, Vec::new()));
+        let [source, target] = if same && arguments.vertices > 0 {
+            coarsened([&pair.source, &pair.target], &mut vertices, arguments.vertices)
+        } else {
+            [pair.source, pair.target]
+        };
+        let points = [&source, &target].map(|mesh| (mesh, Vec::new()));
         let mut points: [(&SurfaceMesh, Vec<SurfacePoint>); 2] = points;
         for (k, (mesh, points)) in points.iter_mut().enumerate() {
             points.extend(vertices.iter().map(|ends| SurfacePoint::at_vertex(mesh, ends[k].into_vertex())));
         }
         let points = points.map(|(_, points)| points);
-        let truth = same.then(|| pair.target.positions().iter().copied().collect());
-        Self {
-            name: name.to_owned(),
-            variant: String::new(),
-            meshes: [pair.source, pair.target],
-            points,
-            truth,
-        }
+        let truth = same.then(|| target.positions().iter().copied().collect());
+        Self { name: name.to_owned(), variant: String::new(), meshes: [source, target], points, truth }
     }
 
     /// Makes the map and measures it.
@@ -187,6 +187,20 @@ impl Case {
             }),
         }
     }
+}
+
+/// Two meshes of one connectivity coarsened to about `goal` vertices, in the same way; `landmarks` stay, renumbered.
+fn coarsened(meshes: [&SurfaceMesh; 2], landmarks: &mut [[u32; 2]], goal: usize) -> [SurfaceMesh; 2] {
+    let held: Vec<VertexId> = landmarks.iter().map(|ends| VertexId(ends[0])).collect();
+    let Level { mesh, vertices, .. } =
+        Level::coarse(meshes[0], &held, goal, &mut Silent).expect("nothing cancels");
+    for (ends, v) in landmarks.iter_mut().zip(&held) {
+        let number = vertices.binary_search(v).expect("landmarks stay").0;
+        *ends = [number; 2];
+    }
+    let positions = vertices.iter().map(|&v| meshes[1].positions()[v]).collect();
+    let target = mesh.with_positions(positions);
+    [mesh, target]
 }
 
 /// Keeps `count` of the pairs: first the one whose source point is farthest from the mean of all, then again and again the one that is

@@ -17,7 +17,7 @@ use crate::mesh::face_weights::{FaceWeight, FaceWeights};
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, OrStop, Portion, Silent, Step};
 use crate::registration::patch_fit::OrientedSurface;
-use crate::registration::rigid_patches::{self, MappedLevel, RigidPatchOptions, WeightedLevel};
+use crate::registration::rigid_patches::{self, MappedLevel, RigidPatchOptions, SmallMeshes, WeightedLevel};
 use crate::surface_map::MapError;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
@@ -274,20 +274,74 @@ impl CoarseMap<'_> {
     ) -> Result<(), MapError> {
         let fine = &MapRelaxationOptions { energy: self.energy, ..options.fine };
         let patches = &options.rigid_patches;
-        let least = if is_finest { patches.least_full } else { patches.least_vertices };
-        if self.energy != MapEnergy::POSES || !self.have(least) {
-            if is_finest {
-                // Constraints from coarser levels would dent the small triangles of the full meshes.
-                self.constraints = Default::default();
-            }
-            return self.lower(fine, monitor, |_| ());
+        if self.energy != MapEnergy::POSES || !self.have(patches.least_vertices) {
+            return self.settle_freely(fine, is_finest, monitor).map(|_| ());
         }
         if !is_finest {
             self.lower(fine, &mut Portion::new(monitor, 0.0, 0.5), |_| ())?;
             let part = &mut Portion::new(monitor, 0.5, 1.0);
             self.register_patches(patches, patches.rounds, fine, part)?;
-            return if self.is_of_one_body() { Ok(()) } else { self.settle_two_bodies(options, monitor) };
+            return if self.is_of_one_body() {
+                Ok(())
+            } else {
+                self.settle_two_bodies(options, monitor).map(|_| ())
+            };
         }
+        if self.have(patches.small.below) {
+            return self.settle_by_patches(options, monitor).map(|_| ());
+        }
+        self.settle_small(options, monitor)
+    }
+
+    /// Settles the map of full meshes of which one is small by patches; without them where they fit badly or strain the map.
+    ///
+    /// # Errors
+    /// [`MapError::Cancelled`].
+    fn settle_small(
+        &mut self,
+        options: &MultilevelOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<(), MapError> {
+        let fine = &MapRelaxationOptions { energy: self.energy, ..options.fine };
+        let SmallMeshes { least_fit, most_strain, .. } = options.rigid_patches.small;
+        let mut free = self.clone();
+        let unstrained = free.settle_freely(fine, true, &mut Portion::new(monitor, 0.0, 0.4))?;
+        let mean_log = self.settle_by_patches(options, &mut Portion::new(monitor, 0.4, 1.0))?;
+        if self.patch_fit.iter().any(|fit| *fit < least_fit) || mean_log > most_strain * unstrained {
+            *self = free;
+        }
+        Ok(())
+    }
+
+    /// Lowers the energy of the map of the present levels, on the full meshes without constraints; returns the mean log density.
+    ///
+    /// # Errors
+    /// [`MapError::Cancelled`].
+    fn settle_freely(
+        &mut self,
+        fine: &MapRelaxationOptions,
+        is_finest: bool,
+        monitor: &mut dyn Monitor,
+    ) -> Result<f64, MapError> {
+        if is_finest {
+            // Constraints from coarser levels would dent the small triangles of the full meshes.
+            self.constraints = Default::default();
+        }
+        self.lower(fine, monitor, |relaxed| relaxed.mean_log())
+    }
+
+    /// Registers patches of the full meshes and lowers the energy of the map with what is kept of their constraints; returns the mean log
+    /// density.
+    ///
+    /// # Errors
+    /// [`MapError::Cancelled`].
+    fn settle_by_patches(
+        &mut self,
+        options: &MultilevelOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<f64, MapError> {
+        let fine = &MapRelaxationOptions { energy: self.energy, ..options.fine };
+        let patches = &options.rigid_patches;
         // Registered first: without the registration's pull the map of the full meshes drifts from the known map to the least energy.
         self.register_patches(patches, patches.full_rounds, fine, &mut Portion::new(monitor, 0.0, 0.5))?;
         if !self.is_of_one_body() {
@@ -296,10 +350,11 @@ impl CoarseMap<'_> {
         for (_, constraint) in self.constraints.iter_mut().flatten() {
             constraint.rows = constraint.rows.map(|row| row * patches.hold.sqrt());
         }
-        self.lower(fine, &mut Portion::new(monitor, 0.5, 1.0), |_| ())
+        self.lower(fine, &mut Portion::new(monitor, 0.5, 1.0), |relaxed| relaxed.mean_log())
     }
 
-    /// Lowers the energy of the map of the present levels, and from now on, as that of two bodies: they only seemed to be one.
+    /// Lowers the energy of the map of the present levels, and from now on, as that of two bodies: they only seemed to be one. Returns the
+    /// mean log density.
     ///
     /// # Errors
     /// [`MapError::Cancelled`].
@@ -307,10 +362,10 @@ impl CoarseMap<'_> {
         &mut self,
         options: &MultilevelOptions,
         monitor: &mut dyn Monitor,
-    ) -> Result<(), MapError> {
+    ) -> Result<f64, MapError> {
         self.energy = options.fine.energy;
         self.constraints = Default::default();
-        self.lower(&options.fine, &mut Portion::new(monitor, 1.0, 1.0), |_| ())
+        self.lower(&options.fine, &mut Portion::new(monitor, 1.0, 1.0), |relaxed| relaxed.mean_log())
     }
 
     /// Lowers the energy of the present levels with constraints that draw corresponding rims to each other. Other constraints stay.

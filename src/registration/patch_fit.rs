@@ -7,7 +7,7 @@
 use crate::math::rigid3::{Rigid3, nearest_rotation, outer, small_turn};
 use crate::math::scalar::{max, min};
 use crate::mesh::normals::vertex_normals;
-use crate::mesh::{SurfaceMesh, VertexId};
+use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 use glam::{DMat3, DVec3};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use typed_index_collections::TiVec;
@@ -43,6 +43,16 @@ impl<'a> OrientedSurface<'a> {
         // The height of the paraboloid above the tangent plane is half the second fundamental form; its gradient gives the normal.
         let distance = 0.5 * along.dot(turn) - away.dot(normal);
         Foot { distance, normal: (normal - turn).normalize_or(normal) }
+    }
+
+    /// How exactly the mesh tells where the surface is: the median distance of a vertex from the paraboloid of its neighbour. Coarse, uneven
+    /// and noisy meshes have more of it. The mesh is not empty.
+    pub fn roughness(&self) -> f64 {
+        let miss =
+            |h: HalfedgeId| self.foot(self.mesh.tail(h), self.mesh.positions()[self.mesh.head(h)]).distance;
+        let mut misses: Vec<f64> = self.mesh.halfedges().map(|h| miss(h).abs()).collect();
+        let middle = misses.len() / 2;
+        *misses.select_nth_unstable_by(middle, f64::total_cmp).1
     }
 
     /// A vertex that is nearer to p than all its neighbours, reached from `from` by going to the nearest neighbour again and again.
@@ -354,6 +364,23 @@ mod tests {
             }
         }
         assert!(bent[0] < 0.35 * flat[0] && bent[1] < 0.35 * flat[1], "{bent:?} {flat:?}");
+    }
+
+    #[test]
+    fn coarse_and_noisy_meshes_are_rough() {
+        let fine = icosphere(5);
+        let shaken = |amount: f64| {
+            let shake = |(v, p): (VertexId, &DVec3)| *p * (1.0 + amount * sin(57.0 * v.index() as f64));
+            fine.with_positions(fine.positions().iter_enumerated().map(shake).collect())
+        };
+        let rough = |mesh: &SurfaceMesh| OrientedSurface::new(mesh).roughness();
+        // A ball has paraboloids up to the third order of an edge's length.
+        assert!(rough(&icosphere(3)) > 3.0 * rough(&fine), "{} {}", rough(&icosphere(3)), rough(&fine));
+        assert!(rough(&fine) < 1e-4, "{}", rough(&fine));
+        for amount in [2e-3, 4e-3] {
+            let found = rough(&shaken(amount));
+            assert!((0.3..1.0).contains(&(found / amount)), "{found} of {amount}");
+        }
     }
 
     #[test]
