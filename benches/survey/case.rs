@@ -4,10 +4,9 @@ use crate::arguments::Arguments;
 use crate::common;
 use conemap::demo;
 use conemap::landmarks::{Landmarks, PlacedLandmarks};
-use conemap::mesh::coarsening::Level;
 use conemap::mesh::insertion::insert;
 use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
-use conemap::monitor::{Cancelled, Monitor, Silent, Stage, Step};
+use conemap::monitor::{Cancelled, Monitor, Stage, Step};
 use conemap::pipeline::{CapFaces, GroundTruth, MapInput, MapResult, PipelineOptions, findings, run};
 use cpu_time::ThreadTime;
 use glam::DVec3;
@@ -97,7 +96,10 @@ impl Case {
         }
         let same = pair.file.ground_truth.is_some();
         let [source, target] = if same && arguments.vertices > 0 {
-            coarsened([&pair.source, &pair.target], &mut vertices, arguments.vertices)
+            let held: Vec<VertexId> = vertices.iter().map(|ends| VertexId(ends[0])).collect();
+            let (meshes, held) = common::coarsened([&pair.source, &pair.target], &held, arguments.vertices);
+            vertices = held.iter().map(|v| [v.0; 2]).collect();
+            meshes
         } else {
             [pair.source, pair.target]
         };
@@ -187,20 +189,6 @@ impl Case {
             }),
         }
     }
-}
-
-/// Two meshes of one connectivity coarsened to about `goal` vertices, in the same way; `landmarks` stay, renumbered.
-fn coarsened(meshes: [&SurfaceMesh; 2], landmarks: &mut [[u32; 2]], goal: usize) -> [SurfaceMesh; 2] {
-    let held: Vec<VertexId> = landmarks.iter().map(|ends| VertexId(ends[0])).collect();
-    let Level { mesh, vertices, .. } =
-        Level::coarse(meshes[0], &held, goal, &mut Silent).expect("nothing cancels");
-    for (ends, v) in landmarks.iter_mut().zip(&held) {
-        let number = vertices.binary_search(v).expect("landmarks stay").0;
-        *ends = [number; 2];
-    }
-    let positions = vertices.iter().map(|&v| meshes[1].positions()[v]).collect();
-    let target = mesh.with_positions(positions);
-    [mesh, target]
 }
 
 /// Keeps `count` of the pairs: first the one whose source point is farthest from the mean of all, then again and again the one that is

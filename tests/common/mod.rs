@@ -8,7 +8,9 @@
 use conemap::io;
 use conemap::io::landmark_file::{LandmarkFile, LandmarkPoint};
 use conemap::landmarks::Landmarks;
+use conemap::mesh::coarsening::Level;
 use conemap::mesh::{SurfaceMesh, VertexId, check};
+use conemap::monitor::Silent;
 use conemap::pipeline::{CapFaces, GroundTruth, MapInput};
 use std::path::{Path, PathBuf};
 
@@ -92,6 +94,19 @@ pub fn vertex_pairs(file: &LandmarkFile) -> Vec<[u32; 2]> {
 pub fn landmarks(pair: &Pair) -> Landmarks {
     Landmarks::from_vertices(&pair.source, &pair.target, &vertex_pairs(&pair.file))
         .unwrap_or_else(|e| panic!("{}: {e}", pair.name))
+}
+
+/// Two meshes of one connectivity coarsened to about `goal` vertices, in the same way, and the landmarks, which stay, by their new numbers.
+pub fn coarsened(
+    [source, target]: [&SurfaceMesh; 2],
+    landmarks: &[VertexId],
+    goal: usize,
+) -> ([SurfaceMesh; 2], Vec<VertexId>) {
+    let level = Level::coarse(source, landmarks, goal, &mut Silent).expect("nothing cancels");
+    let places = level.vertices.iter().map(|&v| target.positions()[v]).collect();
+    let target = level.mesh.with_positions(places);
+    let landmarks = level.numbers(landmarks).collect();
+    ([level.mesh, target], landmarks)
 }
 
 /// Landmarks by farthest points in space: the first vertex, then the one farthest from all so far.

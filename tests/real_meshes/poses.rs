@@ -3,7 +3,6 @@
 use crate::common;
 use conemap::landmarks::Landmarks;
 use conemap::mesh::VertexId;
-use conemap::mesh::coarsening::Level;
 use conemap::monitor::Silent;
 use conemap::pipeline::{CapFaces, DistortionReport, GroundTruth, MapInput, PipelineOptions, run};
 use conemap::registration::rigid_patches::{RigidPatchOptions, SmallMeshes};
@@ -51,13 +50,10 @@ fn rigid_patches_bring_the_map_nearer_to_the_known_one(data: &Path) {
 fn patches_hold_small_meshes_of_poses(data: &Path) {
     let pair = common::read_pair(data, "horse-horse05");
     let held: Vec<VertexId> = common::vertex_pairs(&pair.file).iter().map(|ends| VertexId(ends[0])).collect();
-    let level = Level::coarse(&pair.source, &held, 3000, &mut Silent).unwrap();
-    let target = level.vertices.iter().map(|&v| pair.target.positions()[v]).collect();
-    let target = level.mesh.with_positions(target);
-    let landmarks: Vec<VertexId> = level.numbers(&held).collect();
+    let ([source, target], landmarks) = common::coarsened([&pair.source, &pair.target], &held, 3000);
     let landmarks = Landmarks { source: landmarks.clone().into(), target: landmarks.into() };
     let input = MapInput {
-        source: &level.mesh,
+        source: &source,
         target: &target,
         landmarks: &landmarks,
         ground_truth: GroundTruth::SameConnectivity,
