@@ -288,7 +288,8 @@ impl CoarseMap<'_> {
             };
         }
         if self.have(patches.small.below) {
-            return self.settle_by_patches(options, monitor).map(|_| ());
+            let patches = &RigidPatchOptions { radii: patches.full_radii, ..*patches };
+            return self.settle_by_patches(patches, options, monitor).map(|_| ());
         }
         self.settle_small(options, monitor)
     }
@@ -306,7 +307,8 @@ impl CoarseMap<'_> {
         let SmallMeshes { least_fit, most_strain, .. } = options.rigid_patches.small;
         let mut free = self.clone();
         let unstrained = free.settle_freely(fine, true, &mut Portion::new(monitor, 0.0, 0.4))?;
-        let mean_log = self.settle_by_patches(options, &mut Portion::new(monitor, 0.4, 1.0))?;
+        let part = &mut Portion::new(monitor, 0.4, 1.0);
+        let mean_log = self.settle_by_patches(&options.rigid_patches, options, part)?;
         if self.patch_fit.iter().any(|fit| *fit < least_fit) || mean_log > most_strain * unstrained {
             *self = free;
         }
@@ -337,11 +339,11 @@ impl CoarseMap<'_> {
     /// [`MapError::Cancelled`].
     fn settle_by_patches(
         &mut self,
+        patches: &RigidPatchOptions,
         options: &MultilevelOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<f64, MapError> {
         let fine = &MapRelaxationOptions { energy: self.energy, ..options.fine };
-        let patches = &options.rigid_patches;
         // Registered first: without the registration's pull the map of the full meshes drifts from the known map to the least energy.
         self.register_patches(patches, patches.full_rounds, fine, &mut Portion::new(monitor, 0.0, 0.5))?;
         if !self.is_of_one_body() {
