@@ -288,8 +288,7 @@ impl CoarseMap<'_> {
             };
         }
         if self.have(patches.small.below) {
-            let patches = &RigidPatchOptions { radii: patches.full_radii, ..*patches };
-            return self.settle_by_patches(patches, options, monitor).map(|_| ());
+            return self.settle_by_patches(&patches.on_full(), options, monitor).map(|_| ());
         }
         self.settle_small(options, monitor)
     }

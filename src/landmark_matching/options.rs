@@ -122,7 +122,7 @@ impl Default for MatchOptions {
                 spacing: 0.04,
                 every: 3,
                 radius: 0.24,
-                fit: FitOptions { max_steps: 5, damping: 5e-3, noise: 4e-3 },
+                fit: FitOptions { max_steps: 5, damping: 5e-3, noise: 4e-3, stiffness: None },
             },
             limits: VerdictLimits::default(),
         }

@@ -63,7 +63,7 @@ mod tests {
         spacing: 0.03,
         every: 3,
         radius: 0.15,
-        fit: FitOptions { max_steps: 8, damping: 1e-4, noise: 1e-3 },
+        fit: FitOptions { max_steps: 8, damping: 1e-4, noise: 1e-3, stiffness: None },
     };
 
     /// The fit of the hilly ball to itself where each vertex goes to that nearest to its place turned by this.

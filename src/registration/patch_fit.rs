@@ -9,7 +9,7 @@ use crate::math::scalar::{max, min};
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 use glam::{DMat3, DVec3};
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use typed_index_collections::TiVec;
 
 /// A surface with its unit normals and shape operators.
@@ -157,13 +157,61 @@ pub struct FitOptions {
     /// Least knee of the robust weights 1 / (1 + (distance / knee)^2)^2; the knee is 1.5 times the median distance where that
     /// is larger.
     pub noise: f64,
+    /// How stiff a patch is that may bend beside its motion: the weight of the squares of its three bends (second derivatives of its height
+    /// over its own tangent plane), relative to the mean square of the distances. `None` for rigid patches.
+    pub stiffness: Option<f64>,
 }
 
-/// The normal equations of one step for a turn and a shift about the centre, in this order: their matrix and their right side.
-struct NormalEquations {
-    matrix: Matrix6<f64>,
-    right: Vector6<f64>,
+/// The normal equations of one step: their matrix and their right side. The last six unknowns are a turn and a shift about the centre, those
+/// before are bends.
+struct NormalEquations<const N: usize> {
+    matrix: SMatrix<f64, N, N>,
+    right: SVector<f64, N>,
     misfit: f64,
+}
+
+/// A patch as it is moved.
+struct Moved {
+    motion: Rigid3,
+    bending: Bending,
+}
+
+impl Moved {
+    fn apply(&self, p: DVec3) -> DVec3 {
+        self.motion.apply(self.bending.apply(p))
+    }
+}
+
+/// How a patch bends: by a quadric over its tangent plane at the centre.
+struct Bending {
+    centre: DVec3,
+    /// Two directions in the tangent plane and the normal.
+    frame: [DVec3; 3],
+    /// The second derivatives of the height along both directions: first, mixed, second.
+    bends: [f64; 3],
+}
+
+impl Bending {
+    /// No bends.
+    fn none(centre: &PatchPoint) -> Self {
+        let first = centre.normal.any_orthonormal_vector();
+        let frame = [first, centre.normal.cross(first), centre.normal];
+        Self { centre: centre.position, frame, bends: [0.0; 3] }
+    }
+
+    /// The height of a point for each bend of 1.
+    fn heights(&self, p: DVec3) -> [f64; 3] {
+        let [x, y] = [0, 1].map(|k| self.frame[k].dot(p - self.centre));
+        [0.5 * x * x, x * y, 0.5 * y * y]
+    }
+
+    fn apply(&self, p: DVec3) -> DVec3 {
+        if self.bends == [0.0; 3] {
+            return p;
+        }
+        let height: f64 = (0..3).map(|k| self.bends[k] * self.heights(p)[k]).sum();
+        p + self.frame[2] * height
+    }
 }
 
 /// Added to the diagonal of the normal equations for the turns, where the weights sum to 1: without it they are singular for a flat patch,
@@ -190,34 +238,56 @@ impl Fitter {
         onto: &OrientedSurface<'_>,
         options: &FitOptions,
     ) -> Option<PatchFit> {
+        match options.stiffness {
+            None => self.fit_unknowns::<6>(points, onto, options),
+            Some(_) => self.fit_unknowns::<9>(points, onto, options),
+        }
+    }
+
+    /// The same with so many unknowns: 6 for a rigid patch, 9 for one that may bend.
+    fn fit_unknowns<const N: usize>(
+        &mut self,
+        points: &mut [PatchPoint],
+        onto: &OrientedSurface<'_>,
+        options: &FitOptions,
+    ) -> Option<PatchFit> {
         let centre = *points.first()?;
         let total: f64 = points.iter().map(|p| p.weight).sum();
-        let mut motion = start(points, total, onto)?;
+        let mut moved = Moved { motion: start(points, total, onto)?, bending: Bending::none(&centre) };
+        let [turns, shifts] = [N - 6, N - 3];
         self.seen.clear();
         self.seen.resize(points.len(), (DVec3::ZERO, -1.0));
         let mut fit = None;
         for _ in 0..options.max_steps {
-            let at = motion.apply(centre.position);
-            let sums = self.sums(points, total, &motion, onto, options.noise);
+            // The centre stays where it is in a bend.
+            let at = moved.apply(centre.position);
+            let sums = self.sums::<N>(points, total, &moved, onto, options.noise);
             let NormalEquations { mut matrix, mut right, misfit } = sums;
             for k in 0..3 {
-                matrix[(k, k)] += LEAST_RESISTANCE;
-                matrix[(k + 3, k + 3)] += options.damping;
-                right[k + 3] += options.damping * (centre.image - at)[k];
+                matrix[(k + turns, k + turns)] += LEAST_RESISTANCE;
+                matrix[(k + shifts, k + shifts)] += options.damping;
+                right[k + shifts] += options.damping * (centre.image - at)[k];
+            }
+            for k in 0..turns {
+                let stiffness = options.stiffness.unwrap_or(0.0);
+                matrix[(k, k)] += stiffness;
+                right[k] -= stiffness * moved.bending.bends[k];
             }
             let factor = matrix.cholesky()?;
             let step = factor.solve(&right);
-            let [turn, shift] = [0, 3].map(|k| DVec3::new(step[k], step[k + 1], step[k + 2]));
+            let [turn, shift] = [turns, shifts].map(|k| DVec3::new(step[k], step[k + 1], step[k + 2]));
             // The normal equations hold for small turns; one of more than a radian in one step is no fit.
             if !shift.is_finite() || turn.length_squared().is_nan() || turn.length_squared() > 1.0 {
                 return None;
             }
-            // With the best turn for each shift, the matrix of the shifts is the Schur complement L L^T, L the factor's block of the shifts.
-            let block = factor.l_dirty().fixed_view::<3, 3>(3, 3).lower_triangle();
+            // With the best turn and bends for each shift, the matrix of the shifts is the Schur complement L L^T, L the factor's block of the
+            // shifts.
+            let block = factor.l_dirty().fixed_view::<3, 3>(shifts, shifts).lower_triangle();
             let hold =
                 DMat3::from(block * block.transpose()) - DMat3::from_diagonal(DVec3::splat(options.damping));
-            let rotation = small_turn(turn) * motion.rotation;
-            motion = Rigid3::with_point(rotation, centre.position, at + shift);
+            (0..turns).for_each(|k| moved.bending.bends[k] += step[k]);
+            let rotation = small_turn(turn) * moved.motion.rotation;
+            moved.motion = Rigid3::with_point(rotation, centre.position, at + shift);
             fit = Some(PatchFit { centre: at + shift, misfit, hold });
             // A tenth of the noise, in radians and in units of the root of the area.
             if turn.length() + shift.length() < 3e-5 {
@@ -227,21 +297,22 @@ impl Fitter {
         fit
     }
 
-    /// The normal equations of a patch moved by `motion`; the weights of its points sum to `total`.
-    fn sums(
+    /// The normal equations of a patch that has been moved; the weights of its points sum to `total`.
+    fn sums<const N: usize>(
         &mut self,
         points: &mut [PatchPoint],
         total: f64,
-        motion: &Rigid3,
+        moved: &Moved,
         onto: &OrientedSurface<'_>,
         noise: f64,
-    ) -> NormalEquations {
-        let centre = motion.apply(points[0].position);
+    ) -> NormalEquations<N> {
+        let rotation = moved.motion.rotation;
+        let centre = moved.apply(points[0].position);
         self.distances.clear();
         self.normals.clear();
         self.arms.clear();
         for (p, (place, margin)) in points.iter_mut().zip(&mut self.seen) {
-            let y = motion.apply(p.position);
+            let y = moved.apply(p.position);
             // After the first step a patch hardly moves.
             if *margin <= 0.0 || y.distance_squared(*place) >= *margin * *margin {
                 (p.near, *margin) = onto.nearest_with_margin(p.near, y);
@@ -250,7 +321,7 @@ impl Fitter {
             let Foot { distance, normal } = onto.foot(p.near, y);
             self.distances.push(distance);
             // A point counts only where both normals are within 60 degrees. Chosen by hand.
-            let agrees = (motion.rotation * p.normal).dot(normal) > 0.5;
+            let agrees = (rotation * p.normal).dot(normal) > 0.5;
             self.normals.push(if agrees { normal } else { DVec3::ZERO });
             self.arms.push(y - centre);
         }
@@ -260,17 +331,24 @@ impl Fitter {
         // The robust scale is the median distance. Chosen by hand.
         let (_, median, _) = self.sizes.select_nth_unstable_by(middle, f64::total_cmp);
         let knee = max(1.5 * *median, noise);
-        let (mut matrix, mut right, mut misfit) = ([[0.0; 6]; 6], [0.0; 6], 0.0);
+        let up = rotation * moved.bending.frame[2];
+        let (mut matrix, mut right, mut misfit) = ([[0.0; N]; N], [0.0; N], 0.0);
         for (k, p) in points.iter().enumerate() {
             let (distance, n) = (self.distances[k], self.normals[k]);
             let share = p.weight / total;
             let square = (distance / knee) * (distance / knee);
             let weight = share / ((1.0 + square) * (1.0 + square));
             let lever = self.arms[k].cross(n);
-            let row = [lever.x, lever.y, lever.z, n.x, n.y, n.z];
-            for i in 0..6 {
+            let mut row = [0.0; N];
+            row[N - 6..N - 3].copy_from_slice(&lever.to_array());
+            row[N - 3..].copy_from_slice(&n.to_array());
+            if N > 6 {
+                let heights = moved.bending.heights(p.position);
+                (0..N - 6).for_each(|bend| row[bend] = heights[bend] * up.dot(n));
+            }
+            for i in 0..N {
                 let weighted = weight * row[i];
-                for j in 0..6 {
+                for j in 0..N {
                     matrix[i][j] += weighted * row[j];
                 }
                 right[i] += weighted * distance;
@@ -278,7 +356,7 @@ impl Fitter {
             // The misfit of a point is at most that at three knees. Chosen by hand.
             misfit += share * square.min(9.0) * knee * knee;
         }
-        NormalEquations { matrix: Matrix6::from(matrix), right: Vector6::from(right), misfit }
+        NormalEquations { matrix: SMatrix::from(matrix), right: SVector::from(right), misfit }
     }
 }
 
@@ -312,7 +390,7 @@ mod tests {
     use crate::math::scalar::{cos, sin};
     use crate::mesh::generators::icosphere;
 
-    const OPTIONS: FitOptions = FitOptions { max_steps: 20, damping: 1e-6, noise: 1e-4 };
+    const OPTIONS: FitOptions = FitOptions { max_steps: 20, damping: 1e-6, noise: 1e-4, stiffness: None };
 
     /// A ball with hills.
     fn hilly() -> SurfaceMesh {
@@ -342,6 +420,30 @@ mod tests {
         let fit = Fitter::default().fit(&mut points, &surface, &OPTIONS).unwrap();
         assert!(fit.centre.distance(points[0].position) < 2e-3, "{fit:?}");
         assert!(fit.misfit < 1e-6, "{fit:?}");
+    }
+
+    #[test]
+    fn a_patch_that_may_bend_fits_a_body_that_is_bent() {
+        let mesh = hilly();
+        // The other body is rolled up round an axis.
+        let roll = |p: &DVec3| {
+            let (radius, angle) = (2.0 + p.z, 0.5 * p.x);
+            DVec3::new(radius * sin(angle), p.y, radius * cos(angle) - 2.0)
+        };
+        let bent = mesh.with_positions(mesh.positions().iter().map(roll).collect());
+        let [surface, onto] = [&mesh, &bent].map(OrientedSurface::new);
+        let mut points = patch(&surface, DVec3::ZERO);
+        for p in &mut points {
+            p.image = roll(&p.position);
+            p.near = onto.nearest(VertexId(0), p.image);
+        }
+        let fit = |stiffness: Option<f64>| {
+            Fitter::default().fit(&mut points.clone(), &onto, &FitOptions { stiffness, ..OPTIONS }).unwrap()
+        };
+        let [rigid, stiff, soft] = [None, Some(1e6), Some(1e-9)].map(fit);
+        assert!(soft.misfit < 0.2 * rigid.misfit, "{soft:?} {rigid:?}");
+        assert!((stiff.misfit / rigid.misfit - 1.0).abs() < 1e-6, "{stiff:?} {rigid:?}");
+        assert!(stiff.centre.distance(rigid.centre) < 1e-6, "{stiff:?} {rigid:?}");
     }
 
     #[test]

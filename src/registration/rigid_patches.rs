@@ -27,14 +27,14 @@ pub struct RigidPatchOptions {
     pub rounds: usize,
     /// Registrations on full meshes, which begin near their optimum.
     pub full_rounds: usize,
+    /// Patches of full meshes where neither is small.
+    pub full: FullPatches,
     /// What is asked of patches on small full meshes before a map is settled by them.
     pub small: SmallMeshes,
     /// Distance between neighbouring points of the patches.
     pub spacing: f64,
     /// Radii of the patches around every point.
     pub radii: [f64; 2],
-    /// Their radii on the full meshes where neither is small: the map begins near the truth there, and small patches bend less.
-    pub full_radii: [f64; 2],
     /// Options of the registration of one patch.
     pub fit: FitOptions,
     /// Strength of the constraints: the energy, per unit of area, of a vertex whose distance from its fitted place is the shift that
@@ -45,6 +45,15 @@ pub struct RigidPatchOptions {
     /// Share of their strength, 0 to 1, with which constraints hold the vertices of the full meshes at the places that registration has
     /// found, while the dents that the constraints have made relax.
     pub hold: f64,
+}
+
+/// Patches of full meshes: the map begins near the truth there, so that small ones that may bend do not leave it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FullPatches {
+    /// Radii of the patches around every point.
+    pub radii: [f64; 2],
+    /// How stiff they are ([`FitOptions::stiffness`]).
+    pub stiffness: f64,
 }
 
 /// What is asked of patches where one of the full meshes has few vertices: relief is crude there. Between two people, and on bodies without
@@ -66,20 +75,29 @@ impl Default for RigidPatchOptions {
         Self {
             // Where the true stretch of cat-cat1 is below 2 %, a rigid fit of patches of radius 0.08 has a median error of 0.1 %
             // of the root of the area. Spacing, noise, knee, hold and the rounds on the full meshes were tried on three pairs of
-            // poses whose targets were remeshed (see docs/experiments.md), the radii on the full meshes on these and as they are;
-            // the others were chosen by hand, not measured at half and double.
+            // poses whose targets were remeshed (see docs/experiments.md), the patches of full meshes on these and as they are; the
+            // others were chosen by hand, not measured at half and double.
             least_vertices: 1000,
             rounds: 2,
             full_rounds: 1,
+            full: FullPatches { radii: [0.04, 0.07], stiffness: 1e-9 },
             small: SmallMeshes { below: 6000, least_fit: 0.12, most_strain: 1.6 },
             spacing: 0.014,
             radii: [0.05, 0.08],
-            full_radii: [0.04, 0.07],
-            fit: FitOptions { max_steps: 5, damping: 5e-5, noise: 4e-4 },
+            fit: FitOptions { max_steps: 5, damping: 5e-5, noise: 4e-4, stiffness: None },
             strength: 20.0,
             knee: 0.2,
             hold: 0.1,
         }
+    }
+}
+
+impl RigidPatchOptions {
+    /// The options on full meshes where neither is small.
+    #[must_use]
+    pub fn on_full(&self) -> Self {
+        let fit = FitOptions { stiffness: Some(self.full.stiffness), ..self.fit };
+        Self { radii: self.full.radii, fit, ..*self }
     }
 }
 

@@ -15,7 +15,8 @@ async function source(page: Page): Promise<Buffer> {
 
 test('the coarse map is seen while the run goes on, and is gone with it', async ({ page }) => {
   await keepPreviews(page);
-  await openDemo(page);
+  // Its run goes on for longer than a picture takes.
+  await openDemo(page, '#demo=wolf-cow');
   await openStep(page, 'map');
   await page.waitForTimeout(SETTLED);
   const before = await source(page);
