@@ -14,7 +14,6 @@ async function source(page: Page): Promise<Buffer> {
 }
 
 test('the coarse map is seen while the run goes on, and is gone with it', async ({ page }) => {
-  await keepPreviews(page);
   // Its run goes on for longer than a picture takes.
   await openDemo(page, '#demo=wolf-cow');
   await openStep(page, 'map');
@@ -30,13 +29,15 @@ test('the coarse map is seen while the run goes on, and is gone with it', async 
   await openStep(page, 'map');
   await page.waitForTimeout(SETTLED);
   expect((await source(page)).equals(before)).toBe(true);
+});
 
-  await page.evaluate(() => {
-    (Reflect.get(window, 'previews') as unknown[]).length = 0;
-  });
+test('previews come nearer to the map, and are gone at its end', async ({ page }) => {
+  await keepPreviews(page);
+  await openDemo(page);
+  await openStep(page, 'map');
   await page.locator('#run').click();
   await finished(page);
-  await expect(coarse).toHaveCount(0);
+  await expect(page.locator('#view-source .coarse-map')).toHaveCount(0);
   // There are several different previews, with a place for each vertex of the source, and the last ones differ less than the first ones.
   const steps = await page.evaluate(() => {
     const previews = (Reflect.get(window, 'previews') as { places: Float32Array }[]).map(({ places }) => places);
