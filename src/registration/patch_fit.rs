@@ -2,7 +2,7 @@
 //!
 //! The points of the patch slide over the other surface: only their distances from its tangent planes count (Chen & Medioni
 //! 1991), with robust weights. The growth of the misfit when the patch is shifted, with the best rotation for each shift, tells in which
-//! directions relief holds the patch.
+//! directions relief holds the patch. A patch may also bend a little, by a quadric over its own tangent plane.
 
 use crate::math::rigid3::{Rigid3, nearest_rotation, outer, small_turn};
 use crate::math::scalar::{max, min};
@@ -209,7 +209,8 @@ impl Bending {
         if self.bends == [0.0; 3] {
             return p;
         }
-        let height: f64 = (0..3).map(|k| self.bends[k] * self.heights(p)[k]).sum();
+        let heights = self.heights(p);
+        let height: f64 = (0..3).map(|k| self.bends[k] * heights[k]).sum();
         p + self.frame[2] * height
     }
 }
@@ -255,6 +256,7 @@ impl Fitter {
         let total: f64 = points.iter().map(|p| p.weight).sum();
         let mut moved = Moved { motion: start(points, total, onto)?, bending: Bending::none(&centre) };
         let [turns, shifts] = [N - 6, N - 3];
+        let stiffness = options.stiffness.unwrap_or(0.0);
         self.seen.clear();
         self.seen.resize(points.len(), (DVec3::ZERO, -1.0));
         let mut fit = None;
@@ -269,7 +271,6 @@ impl Fitter {
                 right[k + shifts] += options.damping * (centre.image - at)[k];
             }
             for k in 0..turns {
-                let stiffness = options.stiffness.unwrap_or(0.0);
                 matrix[(k, k)] += stiffness;
                 right[k] -= stiffness * moved.bending.bends[k];
             }

@@ -5,7 +5,8 @@
 //! are registered to the other surface by rigid motions, starting from their images under the map ([`super::patch_fit`]). The place
 //! of the patch's centre becomes a soft constraint of the vertex there ([`PointConstraint`]), in each direction as strong as relief
 //! holds the patch. Patches that bend fit badly: with the mean square distance m a patch has the weight
-//! (noise^2 / (noise^2 + m))^2. The patches are registered again after the map has followed.
+//! (noise^2 / (noise^2 + m))^2. The patches are registered again after the map has followed. Those of full meshes that are not small may
+//! bend a little ([`FullPatches`]).
 
 use super::patch_fit::{FitOptions, Fitter, OrientedSurface, PatchFit, PatchPoint};
 use crate::math::scalar::max;
