@@ -14,6 +14,8 @@ mod cutting;
 mod hostile_geometry;
 #[path = "../../tests/common/judged_job.rs"]
 mod judged_job;
+#[path = "../../tests/common/other_triangles.rs"]
+mod other_triangles;
 #[path = "../../tests/common/punching.rs"]
 mod punching;
 #[path = "../../tests/common/quads.rs"]

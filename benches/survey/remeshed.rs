@@ -2,11 +2,12 @@
 
 use crate::arguments::Arguments;
 use crate::case::{Case, Make, map_all};
+use crate::other_triangles::{cut_by_planes, drawn_out};
 use crate::table::{compare, header};
 use conemap::mesh::SurfaceMesh;
 use conemap::mesh::generators::midpoint_subdivision;
 use conemap::monitor::Silent;
-use conemap::remesh::{Noise, Options, carried, decimated, perturbed, remesh};
+use conemap::remesh::{EdgeLengths, Noise, Options, carried, decimated, perturbed, remesh};
 
 /// Maps each pair with its target remeshed in several ways, its landmarks carried to the nearest points, which lie inside faces; compares
 /// with the map of the pair as it is.
@@ -64,12 +65,15 @@ pub fn truth(arguments: &Arguments) {
 type Remade = fn(&SurfaceMesh) -> Option<SurfaceMesh>;
 
 /// The ways in which a target is remeshed, by name.
-const WAYS: [(&str, Remade); 7] = [
+const WAYS: [(&str, Remade); 10] = [
     ("as it is", |_| None),
     ("half", |mesh| Some(isotropic(mesh, 0.5))),
     ("isotropic", |mesh| Some(isotropic(mesh, 1.0))),
     ("double", |mesh| Some(isotropic(mesh, 2.0))),
     ("3000 faces", |mesh| Some(decimated(mesh, 3000))),
+    ("1000 faces", |mesh| Some(decimated(mesh, 1000))),
+    ("drawn out", |mesh| Some(drawn_out(mesh, mesh.face_count(), 5.0))),
+    ("cut by planes", |mesh| Some(cut_by_planes(mesh, 2.0 * EdgeLengths::of(mesh).mean))),
     ("subdivided", |mesh| Some(midpoint_subdivision(mesh))),
     ("noise", |mesh| Some(perturbed(mesh, Noise { tangential: 0.1, normal: 0.1, seed: 1 }))),
 ];

@@ -18,6 +18,8 @@ mod fit;
 mod hostile_geometry;
 #[path = "../common/judged_job.rs"]
 mod judged_job;
+#[path = "../common/other_triangles.rs"]
+mod other_triangles;
 #[path = "../common/points.rs"]
 mod points;
 #[path = "../common/quads.rs"]

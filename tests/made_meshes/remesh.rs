@@ -1,5 +1,6 @@
 //! Tests of remeshing: counts, shapes, distances, sharp edges, and points carried to the new mesh.
 
+use crate::other_triangles::{cut_by_planes, drawn_out};
 use crate::remeshing::remeshed;
 use conemap::mesh::check::closed_genus_zero;
 use conemap::mesh::generators::{icosphere, midpoint_subdivision, octahedron, torus};
@@ -190,6 +191,38 @@ fn variants_are_other_meshes_of_the_surface() {
     let radius = |v: VertexId| rough.positions()[v].length();
     assert!(ball.vertices().any(|v| (radius(v) - 1.0).abs() > 0.05 * mean));
     assert!(ball.vertices().all(|v| (radius(v) - 1.0).abs() < 0.12 * mean));
+}
+
+#[test]
+fn planes_cut_the_same_surface_into_slivers() {
+    let ball = icosphere(3);
+    let cut = cut_by_planes(&ball, 0.17);
+    assert_eq!(cut.euler_characteristic(), 2);
+    assert!(cut.face_count() > 2 * ball.face_count(), "{}", cut.face_count());
+    // Every part looks the same way as the triangle it was cut from: areas add up, and so do volumes.
+    assert!((cut.area() - ball.area()).abs() < 1e-12);
+    let volume = |mesh: &SurfaceMesh| {
+        mesh.faces().map(|f| mesh.corners(f)).map(|[p, q, r]| p.dot(q.cross(r)) / 6.0).sum::<f64>()
+    };
+    assert!((volume(&cut) - volume(&ball)).abs() < 1e-12);
+    let shortest = |mesh: &SurfaceMesh| mesh.edges().map(|h| mesh.length(h)).fold(f64::INFINITY, f64::min);
+    assert!(shortest(&cut) < 0.01 * shortest(&ball), "{}", shortest(&cut));
+    // No triangle crosses a plane any more.
+    assert_eq!(cut_by_planes(&cut, 0.17).face_count(), cut.face_count());
+}
+
+#[test]
+fn triangles_are_drawn_out_along_the_longest_axis() {
+    let ball = icosphere(4);
+    let long = ball.with_positions(ball.positions().iter().map(|p| *p * DVec3::new(1.0, 2.0, 1.0)).collect());
+    let mesh = drawn_out(&long, 2000, 5.0);
+    assert!((mesh.face_count() as f64 / 2000.0 - 1.0).abs() < 0.05, "{}", mesh.face_count());
+    let reach = |axis: usize| {
+        mesh.edges()
+            .map(|h| (mesh.positions()[mesh.head(h)] - mesh.positions()[mesh.tail(h)])[axis].abs())
+            .sum::<f64>()
+    };
+    assert!(reach(1) > 2.5 * reach(0) && reach(1) > 2.5 * reach(2), "{} {} {}", reach(0), reach(1), reach(2));
 }
 
 #[cfg(not(target_arch = "wasm32"))]
