@@ -4,10 +4,11 @@ use super::landmarked_mesh::LandmarkedMesh;
 use super::rims::{RimOptions, kept_of_rims};
 use super::skin::Skin;
 use crate::landmarks::{LandmarkId, Landmarks};
-use crate::mesh::coarsening::{Held, Level, coarsen_around};
+use crate::mesh::coarsening::{Held, Level, coarsen_around, has_slivers};
 use crate::mesh::collapsible::CollapsibleMesh;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
+use crate::surface_map::parametrisation::level::Placing;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 /// A mesh with its coarse level.
@@ -20,6 +21,8 @@ pub struct MeshWithCoarse<'a> {
     pub(super) skin: Option<Skin<'a>>,
     /// The coarse level.
     pub coarse: Level,
+    /// Where its vertices are put when they return.
+    pub(super) placing: Placing,
 }
 
 impl<'a> MeshWithCoarse<'a> {
@@ -42,10 +45,14 @@ impl<'a> MeshWithCoarse<'a> {
         monitor.step(Step::default())?;
         let mut mesh = CollapsibleMesh::new(full);
         let held = Held { cones: &is_landmark, others: &is_kept };
+        let placing = match has_slivers(&mesh, full.positions()) {
+            true => Placing::SliversAsMapped,
+            false => Placing::LowEnergy,
+        };
         coarsen_around(&mut mesh, full.positions(), goal, held, monitor)?;
         let coarse = Level::of(&mesh, full.positions());
         let skin = landmarked.weights_by_face().map(|weights| Skin::new(full, weights));
-        Ok(Self { full, landmarks, mesh, skin, coarse })
+        Ok(Self { full, landmarks, mesh, skin, coarse, placing })
     }
 
     /// The coarse level's vertex of each landmark.

@@ -27,7 +27,7 @@ use crate::surface_map::overlay::overlay;
 use crate::surface_map::parametrisation::cone_surface::ConeSurface;
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
 use crate::surface_map::parametrisation::initial::{self, InitialOptions};
-use crate::surface_map::parametrisation::level::{ParametrisedLevel, Snapshot};
+use crate::surface_map::parametrisation::level::{ParametrisedLevel, Placing, Snapshot};
 use crate::surface_map::relaxation::dent_energy::DentEnergy;
 use crate::surface_map::relaxation::dents::{self, DentOptions};
 use crate::surface_map::relaxation::map_relaxation::{self, MapRelaxationOptions, Relaxed};
@@ -54,6 +54,8 @@ pub struct CoarseMap<'a> {
     /// The constrained vertices of each full mesh, the source first, each vertex with its place on the other mesh.
     constraints: [Vec<(VertexId, PointConstraint)>; 2],
     full: [&'a SurfaceMesh; 2],
+    /// Where vertices of each mesh are put when they return.
+    placing: [Placing; 2],
     skins: [Option<&'a Skin<'a>>; 2],
     /// The vertex of each landmark on each full mesh, the source first.
     landmarks: [&'a TiSlice<LandmarkId, VertexId>; 2],
@@ -90,6 +92,7 @@ pub fn solve_coarse<'a>(
         patch_fit: [1.0; 2],
         constraints: Default::default(),
         full: [meshes[0].full, meshes[1].full],
+        placing: [meshes[0].placing, meshes[1].placing],
         skins: [meshes[0].skin.as_ref(), meshes[1].skin.as_ref()],
         landmarks: [meshes[0].landmarks, meshes[1].landmarks],
     };
@@ -410,11 +413,11 @@ impl CoarseMap<'_> {
     /// Restores vertices of both meshes until each level has grown by `options.growth`; `false` where both are full.
     fn grow(&mut self, options: &MultilevelOptions, monitor: &mut dyn Monitor) -> Result<bool, MapError> {
         let mut grown = false;
-        for level in &mut self.levels {
+        for (level, placing) in self.levels.iter_mut().zip(self.placing) {
             let live = level.mesh().live_vertices();
             let goal = options.next_level(live, level.full_vertices());
             grown |= goal > live;
-            let quiet = InitialOptions { growth: f64::INFINITY, ..options.initial };
+            let quiet = InitialOptions { growth: f64::INFINITY, placing, ..options.initial };
             monitor.step(Step::default())?;
             initial::refine(level, goal, &quiet, monitor)?;
         }

@@ -6,7 +6,7 @@
 
 use super::ids::star;
 use super::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
-use crate::math::scalar::max;
+use crate::math::scalar::{max, min};
 use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
@@ -165,12 +165,21 @@ impl CollapsibleMesh {
             }
             let (p, q) = (positions[p], positions[q]);
             let (before, after) = ((p - at_a).cross(q - at_a), (p - at_b).cross(q - at_b));
-            let squares = [p - at_b, q - at_b, p - q].map(DVec3::length_squared);
-            let longest = max(max(squares[0], squares[1]), squares[2]);
             let double_area = after.length();
             before.dot(after) > limits.normal_cosine * before.length() * double_area
-                && double_area > limits.double_area * longest
+                && double_area > limits.double_area * longest_squared([at_b, p, q])
         })
+    }
+
+    /// The double area of a triangle in units of its longest edge squared: 0.87 for equilateral ones.
+    pub fn shape(&self, f: FaceId, positions: &TiSlice<VertexId, DVec3>) -> f64 {
+        let [p, q, r] = self.corners(f).map(|corner| positions[corner]);
+        (q - p).cross(r - p).length() / longest_squared([p, q, r])
+    }
+
+    /// The least [`Self::shape`] of the triangles around a vertex.
+    pub fn worst_shape(&self, v: VertexId, positions: &TiSlice<VertexId, DVec3>) -> f64 {
+        self.star(v).map(|h| self.shape(h.face(), positions)).fold(f64::INFINITY, min)
     }
 
     /// Moves the start of `h` into its end; the two faces beside `h` vanish.
@@ -283,6 +292,11 @@ impl CollapsibleMesh {
         self.tails[t] = k;
         true
     }
+}
+
+/// The square of a triangle's longest edge.
+fn longest_squared([p, q, r]: [DVec3; 3]) -> f64 {
+    max(max(p.distance_squared(q), p.distance_squared(r)), q.distance_squared(r))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 use super::coarsen_to_base::coarsen_to_base;
 use super::cone_surface::ConeSurface;
 use super::embedding::{Anchor, Embedding, Parametrised};
-use super::level::{LandmarkedLevel, ParametrisedLevel};
+use super::level::{LandmarkedLevel, ParametrisedLevel, Placing};
 use super::problem::{FlatRelaxOptions, FlatRelaxReport};
 use super::unknowns::Unknowns;
 use crate::landmarks::LandmarkId;
@@ -30,12 +30,14 @@ pub struct InitialOptions {
     pub growth: f64,
     /// Options of the relaxation of a level.
     pub level: FlatRelaxOptions,
+    /// Where vertices that return are put.
+    pub placing: Placing,
 }
 
 impl Default for InitialOptions {
     fn default() -> Self {
         // Chosen by hand, not measured at half and double.
-        Self { growth: 4.0, level: FlatRelaxOptions::default() }
+        Self { growth: 4.0, level: FlatRelaxOptions::default(), placing: Placing::LowEnergy }
     }
 }
 
@@ -113,13 +115,13 @@ pub fn refine(
     let mut report = InitialReport::default();
     let mut relaxed_at = level.mesh().live_vertices();
     while level.mesh().live_vertices() < goal {
-        match level.refine() {
+        match level.refine(options.placing) {
             None => break,
             Some(Ok(_)) => {}
             Some(Err(_)) => {
                 level.relax(&options.level, monitor)?;
                 report.rescued_vertices += 1;
-                if level.refine().is_none_or(|again| again.is_err()) {
+                if level.refine(options.placing).is_none_or(|again| again.is_err()) {
                     return Err(MapError::NoStart { vertices: level.mesh().live_vertices() });
                 }
             }

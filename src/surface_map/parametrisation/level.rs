@@ -11,9 +11,11 @@ use super::rest_triangle::{Corner, FlatTriangle, RestTriangle};
 use super::star::{Star, turn_at};
 use super::unknowns::sights;
 use crate::landmarks::LandmarkId;
+use crate::math::barycentric::interpolated;
 use crate::math::rigid2::Rigid2;
 use crate::math::triangle::signed_double_area;
-use crate::mesh::coarsening::Level;
+use crate::mesh::closest_point::closest_in_triangle;
+use crate::mesh::coarsening::{self, Level};
 use crate::mesh::collapsible::CollapsibleMesh;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::monitor::{Cancelled, Monitor};
@@ -29,6 +31,16 @@ pub struct LandmarkedLevel<'a> {
     pub positions: &'a TiSlice<VertexId, DVec3>,
     /// The vertex of each landmark.
     pub landmarks: &'a TiSlice<LandmarkId, VertexId>,
+}
+
+/// Where a vertex that returns is put.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Placing {
+    /// Where the energy of its star is low.
+    LowEnergy,
+    /// The same, but beside slivers where the coarser level maps its position, if that distorts none of them as much: energies weigh
+    /// triangles by their areas, and hardly see slivers, which then hinder every step of the relaxation.
+    SliversAsMapped,
 }
 
 /// A level of a mesh with its parametrisation.
@@ -291,11 +303,16 @@ impl<'a> ParametrisedLevel<'a> {
     ///
     /// # Errors
     /// [`NoPlace`] where its star has no kernel; the vertex is removed again.
-    pub fn refine(&mut self) -> Option<Result<VertexId, NoPlace>> {
+    pub fn refine(&mut self, placing: Placing) -> Option<Result<VertexId, NoPlace>> {
         let v = self.restore()?;
         let h = self.mesh.outgoing(v);
         self.look_around(h);
-        let Some(place) = self.place(v) else {
+        let low = self.place(v);
+        let place = match placing {
+            Placing::LowEnergy => low,
+            Placing::SliversAsMapped => self.place_as_mapped(v, low).or(low),
+        };
+        let Some(place) = place else {
             self.collapse(h);
             return Some(Err(NoPlace));
         };
@@ -339,6 +356,26 @@ impl<'a> ParametrisedLevel<'a> {
         let centre = star.kernel.centroid(&star.ring)?;
         let z = star.improved(centre);
         star.turns_once(z).then_some(z)
+    }
+
+    /// Where the coarser level maps the position of the vertex in the middle of the star; `None` where it has no sliver around it, or is
+    /// placed with less distortion at `low`. The star is filled with its triangles.
+    fn place_as_mapped(&self, v: VertexId, low: Option<DVec2>) -> Option<DVec2> {
+        let Self { mesh, positions, star, .. } = self;
+        star.halfedges.iter().find(|h| coarsening::is_sliver(mesh, h.face(), positions))?;
+        let ring = |k: usize| positions[mesh.head(star.halfedges[k])];
+        // On the coarser level the star's faces lay in a fan around the end of the collapse, the first of the ring.
+        let on_fan = |k: usize| {
+            let corners = [ring(0), ring(k), ring(k + 1)];
+            let weights = closest_in_triangle(positions[v], corners);
+            let apart = interpolated(corners, weights).distance_squared(positions[v]);
+            let [a, b, c] = weights;
+            (apart, star.ring[0] * a + star.ring[k] * b + star.ring[k + 1] * c)
+        };
+        let fan = (1..star.halfedges.len() - 1).map(on_fan);
+        let (_, place) = fan.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let is_better = low.is_none_or(|low| star.worst(place) < star.worst(low));
+        (is_better && star.turns_once(place)).then_some(place)
     }
 
     /// Lowers the energy of the present level.

@@ -4,6 +4,7 @@ use super::kernel::Kernel;
 use super::rest_triangle::FlatTriangle;
 use crate::math::matrix2::outer;
 use crate::math::rigid2::Rigid2;
+use crate::math::scalar::max;
 use crate::math::triangle::{signed_double_area, turn};
 use crate::mesh::HalfedgeId;
 use crate::surface_map::energy::density::Density;
@@ -50,6 +51,11 @@ impl Star {
             }
         }
         z
+    }
+
+    /// The largest energy density of the triangles with the vertex at z; infinite where one is not positive.
+    pub fn worst(&self, z: DVec2) -> f64 {
+        self.triangles.iter().map(|t| SymmetricDirichlet.density(&t.jacobian_at(z))).fold(0.0, max)
     }
 
     fn derivatives(&self, z: DVec2) -> (DVec2, DMat2) {
