@@ -212,6 +212,26 @@ fn planes_cut_the_same_surface_into_slivers() {
 }
 
 #[test]
+fn a_body_cut_into_slivers_is_coarsened_to_good_triangles() {
+    let ball = icosphere(4);
+    let long = ball.with_positions(ball.positions().iter().map(|p| *p * DVec3::new(1.0, 2.5, 0.8)).collect());
+    let cut = cut_by_planes(&long, 2.0 * EdgeLengths::of(&long).mean);
+    let share = |mesh: &SurfaceMesh| {
+        let is_sliver = |[p, q, r]: [DVec3; 3]| {
+            let longest = p.distance_squared(q).max(q.distance_squared(r)).max(r.distance_squared(p));
+            (q - p).cross(r - p).length() < 0.05 * longest
+        };
+        mesh.faces().filter(|&f| is_sliver(mesh.corners(f))).count() as f64 / mesh.face_count() as f64
+    };
+    assert!(share(&cut) > 0.05, "{}", share(&cut));
+    for faces in [4000, 1000, 400] {
+        let coarse = decimated(&cut, faces);
+        assert_eq!(coarse.face_count(), faces);
+        assert!(share(&coarse) < 0.01, "{faces}: {}", share(&coarse));
+    }
+}
+
+#[test]
 fn triangles_are_drawn_out_along_the_longest_axis() {
     let ball = icosphere(4);
     let long = ball.with_positions(ball.positions().iter().map(|p| *p * DVec3::new(1.0, 2.0, 1.0)).collect());
