@@ -18,6 +18,9 @@ pub struct FlowOptions {
     pub scheme: Scheme,
     /// Stops when max |target - curvature| is below this, in radians.
     pub tolerance: f64,
+    /// A residual below this is enough where steps no longer lower it, in radians: angles of triangles thinner than 1e-8 of their length
+    /// are known no better.
+    pub rounding: f64,
     /// Factor on the initial radii, in (0, 1): below 1 no two circles touch.
     pub radii_scale: f64,
     /// Newton steps at most.
@@ -27,7 +30,7 @@ pub struct FlowOptions {
 impl Default for FlowOptions {
     fn default() -> Self {
         // homer takes 4 steps; on the fixed triangulation 100 are not enough either. Chosen by hand.
-        Self { scheme: Scheme::default(), tolerance: 1e-8, radii_scale: 0.9, max_steps: 100 }
+        Self { scheme: Scheme::default(), tolerance: 1e-8, rounding: 1e-6, radii_scale: 0.9, max_steps: 100 }
     }
 }
 
@@ -119,6 +122,12 @@ pub fn recorded_flow(
 /// Conjugate gradient iterations of one Newton step, at most: a bound on the time of a system that does not converge. Chosen by hand.
 const LINEAR_ITERATIONS: usize = 1000;
 
+/// Steps after which a flow that has not halved its least residual ends. Chosen by hand.
+const STUCK_STEPS: usize = 10;
+
+/// The same where rounding may be the cause: Newton's steps square small residuals. Chosen by hand.
+const ROUNDED_STEPS: usize = 3;
+
 struct Newton<'a> {
     metric: ConeMetric,
     target: &'a TiVec<VertexId, f64>,
@@ -161,7 +170,10 @@ impl<'a> Newton<'a> {
         self.report.residuals.push(error);
         self.tell(error);
         monitor.step(Step::default())?;
-        while error >= self.options.tolerance && self.report.newton_steps < self.options.max_steps {
+        while !self.is_converged(error)
+            && self.report.newton_steps < self.options.max_steps
+            && !self.is_stuck(STUCK_STEPS)
+        {
             monitor.step(Step { fraction: self.fraction(error), residual: Some(error) })?;
             self.metric.hessian(&self.state, &mut graph);
             monitor.step(Step { fraction: self.fraction(error), residual: Some(error) })?;
@@ -201,7 +213,7 @@ impl<'a> Newton<'a> {
             self.tell(error);
         }
         self.report.max_curvature_error = error;
-        if error < self.options.tolerance {
+        if self.is_converged(error) {
             self.report.degenerate_faces.clear();
             return Ok((self.metric, self.report));
         }
@@ -211,6 +223,20 @@ impl<'a> Newton<'a> {
     /// The least residual so far.
     fn best(&self) -> f64 {
         self.report.residuals.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether a residual is below the tolerance, or as low as rounding allows.
+    fn is_converged(&self, error: f64) -> bool {
+        let FlowOptions { tolerance, rounding, .. } = *self.options;
+        error < tolerance || error < rounding && self.is_stuck(ROUNDED_STEPS)
+    }
+
+    /// Whether the last steps, which flip edges, have not halved the least residual.
+    fn is_stuck(&self, steps: usize) -> bool {
+        let residuals = &self.report.residuals;
+        let Some(first) = residuals.len().checked_sub(steps).filter(|&first| first > 0) else { return false };
+        let least = |part: &[f64]| part.iter().copied().fold(f64::INFINITY, f64::min);
+        self.options.scheme.flips() && least(&residuals[first..]) > 0.5 * least(&residuals[..first])
     }
 
     /// Progress on a logarithmic scale of the residual.

@@ -5,7 +5,7 @@ use crate::intrinsic::{IntrinsicTriangulation, Move};
 use crate::math::decorated::{
     flipped_inversive_distance, half_edge_weight, inversive_distance, squared_length, tilt,
 };
-use crate::math::scalar::{atan2, exp, ln};
+use crate::math::scalar::{atan2, exp, ln, max};
 use crate::math::triangle::area_from_lengths;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use crate::numerics::graph::Graph;
@@ -217,8 +217,9 @@ impl FlipQueue {
 
 /// The thesis' initial radii (eq. 3.11): min over the faces ijk at i of (l_ij + l_ki - l_jk) / 2, times `scale`.
 ///
-/// Circles of one edge then do not intersect. On needles the minimum can be 0 by rounding; it is kept above 1e-7 of the
-/// vertex's shortest edge.
+/// Circles of one edge then do not intersect. At an obtuse corner of a sliver the minimum is nearly 0, and inversive distances with such
+/// circles are lost in rounding. So radii are kept above half of what the scale leaves free on the vertex's shortest edge, with which
+/// circles still do not intersect: that of the other end takes `scale` of the edge at most. With a scale of 1, above 1e-7 of the edge.
 fn initial_radii(mesh: &SurfaceMesh, scale: f64) -> TiVec<VertexId, f64> {
     let mut radii: TiVec<VertexId, f64> = ti_vec![f64::INFINITY; mesh.vertex_count()];
     let mut shortest: TiVec<VertexId, f64> = ti_vec![f64::INFINITY; mesh.vertex_count()];
@@ -228,11 +229,12 @@ fn initial_radii(mesh: &SurfaceMesh, scale: f64) -> TiVec<VertexId, f64> {
         radii[v] = radii[v].min(0.5 * (ij + (ki - jk)));
         shortest[v] = shortest[v].min(ij);
     }
-    radii.iter().zip(&shortest).map(|(r, s)| scale * r.max(1e-7 * s)).collect()
+    let least = max(0.5 * (1.0 - scale), 1e-7);
+    radii.iter().zip(&shortest).map(|(r, s)| max(scale * r, least * s)).collect()
 }
 
 /// Radii of circles that nearly touch: mean over the faces ijk at i of (l_ij + l_ki - l_jk) / 2, which is where the incircle touches
-/// both edges at i (Jin et al. 2008). Above 1e-7 of the vertex's shortest edge, as above.
+/// both edges at i (Jin et al. 2008). Above 1e-7 of the vertex's shortest edge.
 fn mean_radii(mesh: &SurfaceMesh) -> TiVec<VertexId, f64> {
     let mut sums: TiVec<VertexId, (f64, f64)> = ti_vec![(0.0, 0.0); mesh.vertex_count()];
     let mut shortest: TiVec<VertexId, f64> = ti_vec![f64::INFINITY; mesh.vertex_count()];

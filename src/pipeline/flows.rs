@@ -4,8 +4,8 @@ use super::{Cones, MapInput, PipelineError, PipelineOptions, Warning};
 use crate::base_domain::BaseDomain;
 use crate::cone_metric::atlas::{FlatAtlas, flat_atlas};
 use crate::cone_metric::{
-    ConeMetric, FlatSurface, FlowError, FlowRecord, FlowReport, base_domain_curvature, flow, recorded_flow,
-    uniform_curvature,
+    ConeMetric, FlatSurface, FlowError, FlowOptions, FlowRecord, FlowReport, Scheme, base_domain_curvature,
+    flow, recorded_flow, uniform_curvature,
 };
 use crate::landmarks::{Landmarks, MeshSide};
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
@@ -200,5 +200,13 @@ pub(super) fn cone_metric(
     options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<(ConeMetric, FlowReport), FlowError> {
-    flow(mesh, &curvature(mesh, landmarks, base, options.cones), &options.flow, monitor)
+    let curvature = curvature(mesh, landmarks, base, options.cones);
+    match flow(mesh, &curvature, &options.flow, monitor) {
+        // Inversive distances of very thin triangles are lost in rounding; vertex scaling has no circles that could be too small.
+        Err(FlowError::NotConverged { .. }) if options.flow.scheme == Scheme::Inversive => {
+            let scaling = FlowOptions { scheme: Scheme::VertexScaling, ..options.flow };
+            flow(mesh, &curvature, &scaling, monitor)
+        }
+        flown => flown,
+    }
 }

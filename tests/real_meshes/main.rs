@@ -21,6 +21,8 @@ mod cutting;
 mod distance_bounds;
 #[path = "../common/fit.rs"]
 mod fit;
+#[path = "../common/other_triangles.rs"]
+mod other_triangles;
 #[path = "../common/points.rs"]
 mod points;
 #[path = "../common/punching.rs"]
