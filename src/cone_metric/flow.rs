@@ -18,9 +18,6 @@ pub struct FlowOptions {
     pub scheme: Scheme,
     /// Stops when max |target - curvature| is below this, in radians.
     pub tolerance: f64,
-    /// A residual below this is enough where steps no longer lower it, in radians: angles of triangles thinner than 1e-8 of their length
-    /// are known no better.
-    pub rounding: f64,
     /// Factor on the initial radii, in (0, 1): below 1 no two circles touch.
     pub radii_scale: f64,
     /// Newton steps at most.
@@ -30,7 +27,7 @@ pub struct FlowOptions {
 impl Default for FlowOptions {
     fn default() -> Self {
         // homer takes 4 steps; on the fixed triangulation 100 are not enough either. Chosen by hand.
-        Self { scheme: Scheme::default(), tolerance: 1e-8, rounding: 1e-6, radii_scale: 0.9, max_steps: 100 }
+        Self { scheme: Scheme::default(), tolerance: 1e-8, radii_scale: 0.9, max_steps: 100 }
     }
 }
 
@@ -125,9 +122,6 @@ const LINEAR_ITERATIONS: usize = 1000;
 /// Steps after which a flow that has not halved its least residual ends. Chosen by hand.
 const STUCK_STEPS: usize = 10;
 
-/// The same where rounding may be the cause: Newton's steps square small residuals. Chosen by hand.
-const ROUNDED_STEPS: usize = 3;
-
 struct Newton<'a> {
     metric: ConeMetric,
     target: &'a TiVec<VertexId, f64>,
@@ -170,9 +164,9 @@ impl<'a> Newton<'a> {
         self.report.residuals.push(error);
         self.tell(error);
         monitor.step(Step::default())?;
-        while !self.is_converged(error)
+        while error >= self.options.tolerance
             && self.report.newton_steps < self.options.max_steps
-            && !self.is_stuck(STUCK_STEPS)
+            && !self.is_stuck()
         {
             monitor.step(Step { fraction: self.fraction(error), residual: Some(error) })?;
             self.metric.hessian(&self.state, &mut graph);
@@ -213,7 +207,7 @@ impl<'a> Newton<'a> {
             self.tell(error);
         }
         self.report.max_curvature_error = error;
-        if self.is_converged(error) {
+        if error < self.options.tolerance {
             self.report.degenerate_faces.clear();
             return Ok((self.metric, self.report));
         }
@@ -225,16 +219,13 @@ impl<'a> Newton<'a> {
         self.report.residuals.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether a residual is below the tolerance, or as low as rounding allows.
-    fn is_converged(&self, error: f64) -> bool {
-        let FlowOptions { tolerance, rounding, .. } = *self.options;
-        error < tolerance || error < rounding && self.is_stuck(ROUNDED_STEPS)
-    }
-
-    /// Whether the last steps, which flip edges, have not halved the least residual.
-    fn is_stuck(&self, steps: usize) -> bool {
+    /// Whether the last steps, which flip edges, have not halved the least residual: triangles thinner than about 1e-8 of their length are lost
+    /// in rounding.
+    fn is_stuck(&self) -> bool {
         let residuals = &self.report.residuals;
-        let Some(first) = residuals.len().checked_sub(steps).filter(|&first| first > 0) else { return false };
+        let Some(first) = residuals.len().checked_sub(STUCK_STEPS).filter(|&first| first > 0) else {
+            return false;
+        };
         let least = |part: &[f64]| part.iter().copied().fold(f64::INFINITY, f64::min);
         self.options.scheme.flips() && least(&residuals[first..]) > 0.5 * least(&residuals[..first])
     }

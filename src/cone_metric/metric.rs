@@ -5,7 +5,7 @@ use crate::intrinsic::{IntrinsicTriangulation, Move};
 use crate::math::decorated::{
     flipped_inversive_distance, half_edge_weight, inversive_distance, squared_length, tilt,
 };
-use crate::math::scalar::{atan2, exp, ln, max};
+use crate::math::scalar::{atan2, exp, ln, max, min};
 use crate::math::triangle::area_from_lengths;
 use crate::mesh::{FaceId, HalfedgeId, SurfaceMesh, VertexId};
 use crate::numerics::graph::Graph;
@@ -218,8 +218,8 @@ impl FlipQueue {
 /// The thesis' initial radii (eq. 3.11): min over the faces ijk at i of (l_ij + l_ki - l_jk) / 2, times `scale`.
 ///
 /// Circles of one edge then do not intersect. At an obtuse corner of a sliver the minimum is nearly 0, and inversive distances with such
-/// circles are lost in rounding. So radii are kept above half of what the scale leaves free on the vertex's shortest edge, with which
-/// circles still do not intersect: that of the other end takes `scale` of the edge at most. With a scale of 1, above 1e-7 of the edge.
+/// circles are lost in rounding. So radii are kept above .05 of the vertex's shortest edge, or half of what the scale leaves free on it if
+/// that is less: circles still do not intersect, since that of the other end takes `scale` of the edge at most. With a scale of 1, above 1e-7.
 fn initial_radii(mesh: &SurfaceMesh, scale: f64) -> TiVec<VertexId, f64> {
     let mut radii: TiVec<VertexId, f64> = ti_vec![f64::INFINITY; mesh.vertex_count()];
     let mut shortest: TiVec<VertexId, f64> = ti_vec![f64::INFINITY; mesh.vertex_count()];
@@ -229,7 +229,7 @@ fn initial_radii(mesh: &SurfaceMesh, scale: f64) -> TiVec<VertexId, f64> {
         radii[v] = radii[v].min(0.5 * (ij + (ki - jk)));
         shortest[v] = shortest[v].min(ij);
     }
-    let least = max(0.5 * (1.0 - scale), 1e-7);
+    let least = max(min(0.5 * (1.0 - scale), 0.05), 1e-7);
     radii.iter().zip(&shortest).map(|(r, s)| max(scale * r, least * s)).collect()
 }
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(all(feature = "web", target_arch = "wasm32"), derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum Scheme {
-    /// Inversive distances, kept weighted Delaunay by flips: always converges.
+    /// Inversive distances, kept weighted Delaunay by flips: converges unless rounding stops it on very thin triangles.
     #[default]
     Inversive,
     /// Vertex scaling, kept Delaunay by flips: always converges.

@@ -96,8 +96,8 @@ pub struct Held<'a> {
     pub others: &'a TiSlice<VertexId, bool>,
 }
 
-/// Coarsens to about `goal` vertices; the held ones stay. Of a mesh of slivers these go first as far as none gets worse; else the vertices
-/// between them would stay to the end.
+/// Coarsens to about `goal` vertices; the held ones stay. In a mesh of slivers collapses that make none worse are allowed; else the vertices
+/// between slivers would stay to the end.
 ///
 /// # Errors
 /// [`Cancelled`].

@@ -362,7 +362,9 @@ impl<'a> ParametrisedLevel<'a> {
     /// placed with less distortion at `low`. The star is filled with its triangles.
     fn place_as_mapped(&self, v: VertexId, low: Option<DVec2>) -> Option<DVec2> {
         let Self { mesh, positions, star, .. } = self;
-        star.halfedges.iter().find(|h| coarsening::is_sliver(mesh, h.face(), positions))?;
+        if !star.halfedges.iter().any(|h| coarsening::is_sliver(mesh, h.face(), positions)) {
+            return None;
+        }
         let ring = |k: usize| positions[mesh.head(star.halfedges[k])];
         // On the coarser level the star's faces lay in a fan around the end of the collapse, the first of the ring.
         let on_fan = |k: usize| {
