@@ -14,6 +14,7 @@ mod ids;
 pub mod insertion;
 pub mod look;
 pub mod mirror;
+pub mod neighbours;
 pub mod normals;
 mod packed;
 pub mod packing;

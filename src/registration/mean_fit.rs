@@ -43,7 +43,7 @@ pub fn mean_fit(
         }
         patches.around(v, options.radius, &mut patch);
         all += weights[v];
-        if let Some(fit) = fitted_near(&mut fitter, &mut patch, onto, &options.fit) {
+        if let Some(fit) = fitted_near(&mut fitter, &patch, onto, &options.fit) {
             fitted += weights[v] * trust(&fit, options.fit.noise);
         }
     }

@@ -6,6 +6,7 @@
 
 use crate::math::rigid3::{Rigid3, nearest_rotation, outer, small_turn};
 use crate::math::scalar::{max, min};
+use crate::mesh::neighbours::Neighbours;
 use crate::mesh::normals::vertex_normals;
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
 use glam::{DMat3, DVec3};
@@ -15,27 +16,28 @@ use typed_index_collections::TiVec;
 /// A surface with its unit normals and shape operators.
 pub struct OrientedSurface<'a> {
     mesh: &'a SurfaceMesh,
+    neighbours: Neighbours,
     /// Unit normals.
     pub normals: TiVec<VertexId, DVec3>,
-    /// The shape operator at each vertex, in 1 per unit of length: the normal changes by minus this matrix times a step in the tangent plane.
-    shape_operators: TiVec<VertexId, DMat3>,
+    paraboloids: TiVec<VertexId, Paraboloid>,
 }
 
-impl<'a> OrientedSurface<'a> {
-    /// A mesh with smooth normals.
-    pub fn new(mesh: &'a SurfaceMesh) -> Self {
-        let normals = vertex_normals(mesh);
-        let shape_operators = mesh.vertices().map(|v| shape_operator(mesh, &normals, v)).collect();
-        Self { mesh, normals, shape_operators }
-    }
+/// What the surface is like around a vertex.
+struct Paraboloid {
+    position: DVec3,
+    /// The unit normal.
+    normal: DVec3,
+    /// In 1 per unit of length: the normal changes by minus this matrix times a step in the tangent plane.
+    shape_operator: DMat3,
+}
 
-    /// The foot of a point on the surface near a vertex, where the surface is approximated by a paraboloid, so that the triangulation
-    /// matters little.
-    fn foot(&self, near: VertexId, p: DVec3) -> Foot {
-        let normal = self.normals[near];
-        let away = p - self.mesh.positions()[near];
+impl Paraboloid {
+    /// The foot of a point on it.
+    fn foot(&self, p: DVec3) -> Foot {
+        let normal = self.normal;
+        let away = p - self.position;
         let along = away - normal * away.dot(normal);
-        let turn = self.shape_operators[near] * along;
+        let turn = self.shape_operator * along;
         // Where the normal turns by much within a step, it is an edge and no paraboloid.
         if turn.length_squared() > LARGEST_TURN * LARGEST_TURN {
             return Foot { distance: -away.dot(normal), normal };
@@ -43,6 +45,27 @@ impl<'a> OrientedSurface<'a> {
         // The height of the paraboloid above the tangent plane is half the second fundamental form; its gradient gives the normal.
         let distance = 0.5 * along.dot(turn) - away.dot(normal);
         Foot { distance, normal: (normal - turn).normalize_or(normal) }
+    }
+}
+
+impl<'a> OrientedSurface<'a> {
+    /// A mesh with smooth normals.
+    pub fn new(mesh: &'a SurfaceMesh) -> Self {
+        let normals = vertex_normals(mesh);
+        let neighbours = Neighbours::new(mesh);
+        let paraboloid = |v: VertexId| Paraboloid {
+            position: mesh.positions()[v],
+            normal: normals[v],
+            shape_operator: shape_operator(mesh, &normals, v),
+        };
+        let paraboloids = mesh.vertices().map(paraboloid).collect();
+        Self { mesh, neighbours, normals, paraboloids }
+    }
+
+    /// The foot of a point on the surface near a vertex, where the surface is approximated by a paraboloid, so that the triangulation
+    /// matters little.
+    fn foot(&self, near: VertexId, p: DVec3) -> Foot {
+        self.paraboloids[near].foot(p)
     }
 
     /// How exactly the mesh tells where the surface is: the median distance of a vertex from the paraboloid of its neighbour. Coarse, uneven
@@ -56,18 +79,13 @@ impl<'a> OrientedSurface<'a> {
     }
 
     /// A vertex that is nearer to p than all its neighbours, reached from `from` by going to the nearest neighbour again and again.
-    pub fn nearest(&self, from: VertexId, p: DVec3) -> VertexId {
-        self.nearest_with_margin(from, p).0
-    }
-
-    /// The same, and the distance by which p may move without coming nearer to a neighbour of that vertex.
-    fn nearest_with_margin(&self, from: VertexId, p: DVec3) -> (VertexId, f64) {
+    pub fn nearest(&self, from: VertexId, p: DVec3) -> Nearest {
         let distance = |v: VertexId| self.mesh.positions()[v].distance_squared(p);
         let (mut best, mut least) = (from, distance(from));
         loop {
             let v = best;
             let mut next = f64::INFINITY;
-            for w in self.mesh.star(v).map(|h| self.mesh.head(h)) {
+            for &w in self.neighbours.of(v) {
                 let d = distance(w);
                 next = min(next, d);
                 if d < least {
@@ -75,7 +93,7 @@ impl<'a> OrientedSurface<'a> {
                 }
             }
             if best == v {
-                return (v, 0.5 * (next.sqrt() - least.sqrt()));
+                return Nearest { vertex: v, margin: 0.5 * (next.sqrt() - least.sqrt()) };
             }
         }
     }
@@ -132,7 +150,16 @@ pub struct PatchPoint {
     /// Its image by the present map.
     pub image: DVec3,
     /// The vertex of the other surface nearest to its image.
-    pub near: VertexId,
+    pub near: Nearest,
+}
+
+/// A vertex that is nearer to a point than all its neighbours.
+#[derive(Clone, Copy, Debug)]
+pub struct Nearest {
+    /// The vertex.
+    pub vertex: VertexId,
+    /// The distance by which the point may move without coming nearer to a neighbour.
+    margin: f64,
 }
 
 /// The registration of a patch; lengths in units of the root of the area.
@@ -222,8 +249,8 @@ const LEAST_RESISTANCE: f64 = 1e-9;
 /// Fits of patches; keeps its working memory from one to the next.
 #[derive(Default)]
 pub struct Fitter {
-    /// Where the nearest vertex of each point was looked for last, with its margin.
-    seen: Vec<(DVec3, f64)>,
+    /// Where the nearest vertex of each point was looked for last, and that vertex.
+    seen: Vec<(DVec3, Nearest)>,
     distances: Vec<f64>,
     sizes: Vec<f64>,
     normals: Vec<DVec3>,
@@ -235,7 +262,7 @@ impl Fitter {
     /// there is no fit.
     pub fn fit(
         &mut self,
-        points: &mut [PatchPoint],
+        points: &[PatchPoint],
         onto: &OrientedSurface<'_>,
         options: &FitOptions,
     ) -> Option<PatchFit> {
@@ -248,7 +275,7 @@ impl Fitter {
     /// The same with so many unknowns: 6 for a rigid patch, 9 for one that may bend.
     fn fit_unknowns<const N: usize>(
         &mut self,
-        points: &mut [PatchPoint],
+        points: &[PatchPoint],
         onto: &OrientedSurface<'_>,
         options: &FitOptions,
     ) -> Option<PatchFit> {
@@ -258,7 +285,7 @@ impl Fitter {
         let [turns, shifts] = [N - 6, N - 3];
         let stiffness = options.stiffness.unwrap_or(0.0);
         self.seen.clear();
-        self.seen.resize(points.len(), (DVec3::ZERO, -1.0));
+        self.seen.extend(points.iter().map(|p| (p.image, p.near)));
         let mut fit = None;
         for _ in 0..options.max_steps {
             // The centre stays where it is in a bend.
@@ -301,7 +328,7 @@ impl Fitter {
     /// The normal equations of a patch that has been moved; the weights of its points sum to `total`.
     fn sums<const N: usize>(
         &mut self,
-        points: &mut [PatchPoint],
+        points: &[PatchPoint],
         total: f64,
         moved: &Moved,
         onto: &OrientedSurface<'_>,
@@ -312,14 +339,13 @@ impl Fitter {
         self.distances.clear();
         self.normals.clear();
         self.arms.clear();
-        for (p, (place, margin)) in points.iter_mut().zip(&mut self.seen) {
+        for (p, (place, near)) in points.iter().zip(&mut self.seen) {
             let y = moved.apply(p.position);
-            // After the first step a patch hardly moves.
-            if *margin <= 0.0 || y.distance_squared(*place) >= *margin * *margin {
-                (p.near, *margin) = onto.nearest_with_margin(p.near, y);
-                *place = y;
+            // A patch begins near its image, and hardly moves after the first step.
+            if y.distance_squared(*place) >= near.margin * near.margin {
+                (*place, *near) = (y, onto.nearest(near.vertex, y));
             }
-            let Foot { distance, normal } = onto.foot(p.near, y);
+            let Foot { distance, normal } = onto.foot(near.vertex, y);
             self.distances.push(distance);
             // A point counts only where both normals are within 60 degrees. Chosen by hand.
             let agrees = (rotation * p.normal).dot(normal) > 0.5;
@@ -347,9 +373,10 @@ impl Fitter {
                 let heights = moved.bending.heights(p.position);
                 (0..N - 6).for_each(|bend| row[bend] = heights[bend] * up.dot(n));
             }
+            // Columns from the diagonal down: the factor reads no other half.
             for i in 0..N {
                 let weighted = weight * row[i];
-                for j in 0..N {
+                for j in i..N {
                     matrix[i][j] += weighted * row[j];
                 }
                 right[i] += weighted * distance;
@@ -379,7 +406,7 @@ fn start(points: &[PatchPoint], total: f64, onto: &OrientedSurface<'_>) -> Optio
         let along = d.reject_from_normalized(normal).normalize_or(normal.any_orthonormal_vector());
         DMat3::from_cols(along, normal.cross(along), normal)
     };
-    let onto_normal = onto.normals[centre.near];
+    let onto_normal = onto.normals[centre.near.vertex];
     let guess = frame(onto_normal, far.image - centre.image)
         * frame(centre.normal, far.position - centre.position).transpose();
     Some(Rigid3::with_point(nearest_rotation(&moment, guess), mean, image))

@@ -8,10 +8,11 @@
 //! (noise^2 / (noise^2 + m))^2. The patches are registered again after the map has followed. Those of full meshes that are not small may
 //! bend a little ([`FullPatches`]).
 
-use super::patch_fit::{FitOptions, Fitter, OrientedSurface, PatchFit, PatchPoint};
+use super::patch_fit::{FitOptions, Fitter, Nearest, OrientedSurface, PatchFit, PatchPoint};
 use crate::math::scalar::max;
 use crate::mesh::coarsening::Level;
 use crate::mesh::face_weights::FaceWeights;
+use crate::mesh::neighbours::Neighbours;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Step};
 use crate::surface_map::energy::point_constraint::PointConstraint;
@@ -187,11 +188,11 @@ pub fn register(
         if k.is_multiple_of(ASKED_EVERY) {
             monitor.step(Step::default())?;
         }
-        let mut sum = SummedFit::new(onto.normals[patches.near[v]]);
+        let mut sum = SummedFit::new(onto.normals[patches.near[v].vertex]);
         for radius in options.radii {
             patches.around(v, radius, &mut patch);
             all += weights[v];
-            if let Some(fit) = fitted_near(&mut fitter, &mut patch, onto, fit_options) {
+            if let Some(fit) = fitted_near(&mut fitter, &patch, onto, fit_options) {
                 sum.add(&fit, level.images[v], noise);
                 fitted += weights[v] * trust(&fit, options.fit.noise);
             }
@@ -205,7 +206,7 @@ pub fn register(
 /// The registration of a patch; `None` where it has too few points, no fit, or none near the image of its centre.
 pub(super) fn fitted_near(
     fitter: &mut Fitter,
-    patch: &mut [PatchPoint],
+    patch: &[PatchPoint],
     onto: &OrientedSurface<'_>,
     options: &FitOptions,
 ) -> Option<PatchFit> {
@@ -251,9 +252,10 @@ pub(super) fn spread(
 pub(super) struct Patches<'a> {
     own: &'a OrientedSurface<'a>,
     level: &'a MappedLevel<'a>,
+    neighbours: Neighbours,
     weights: &'a TiSlice<VertexId, f64>,
     /// For each vertex the vertex of the other full mesh that is nearest to its image.
-    near: TiVec<VertexId, VertexId>,
+    near: TiVec<VertexId, Nearest>,
     /// The centre of the last patch that reached a vertex, with its radius.
     reached: TiVec<VertexId, Option<(VertexId, u64)>>,
 }
@@ -266,7 +268,8 @@ impl<'a> Patches<'a> {
     ) -> Self {
         // Every vertex is in many patches, which all start from here.
         let near = level.mesh.vertices().map(|v| onto.nearest(level.near[v], level.images[v])).collect();
-        Self { own, level, weights, near, reached: ti_vec![None; weights.len()] }
+        let neighbours = Neighbours::new(level.mesh);
+        Self { own, level, neighbours, weights, near, reached: ti_vec![None; weights.len()] }
     }
 
     /// Fills `patch` with the points connected to `centre` within the radius, the centre first. Points whose images are far
@@ -297,7 +300,7 @@ impl<'a> Patches<'a> {
                     near: self.near[v],
                 });
             }
-            for w in level.mesh.star(v).map(|h| level.mesh.head(h)) {
+            for &w in self.neighbours.of(v) {
                 if self.reached[w] != mark && distance(w) < radius {
                     self.reached[w] = mark;
                     queue.push(w);
@@ -370,7 +373,7 @@ pub(super) mod testing {
         turn: DQuat,
     ) -> MappedLevel<'a> {
         let images: TiVec<VertexId, DVec3> = mesh.positions().iter().map(|&p| turn * p).collect();
-        let near = images.iter_enumerated().map(|(v, p)| surface.nearest(v, *p)).collect();
+        let near = images.iter_enumerated().map(|(v, p)| surface.nearest(v, *p).vertex).collect();
         let is_on_skin = ti_vec![true; all.len()];
         MappedLevel { mesh, vertices: all, images, near, is_on_skin }
     }
