@@ -5,7 +5,7 @@
 //! `fit_faults` puts in the faults.
 
 use crate::arguments::Arguments;
-use crate::clicks::{Random, moved};
+use crate::clicked::{Random, moved};
 use crate::common;
 use crate::fit_faults as faults;
 use conemap::landmark_fit::{Finding, landmark_fit};

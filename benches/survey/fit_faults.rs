@@ -1,7 +1,7 @@
 //! Faults that are put into landmark pairs on purpose: mirrored sets, targets exchanged between left and right partners or between any two
 //! pairs, and targets moved away.
 
-use crate::clicks::Random;
+use crate::clicked::Random;
 use crate::common::Pair;
 use crate::fit::{COUNTS, Counts, Fit};
 use crate::shrec07;

@@ -2,7 +2,7 @@
 
 use crate::arguments::Arguments;
 use crate::case::{Case, Make, map_all};
-use crate::clicks::Random;
+use crate::clicked::Random;
 use crate::common;
 use crate::fit::folded;
 use crate::repaired::energy_of_places;

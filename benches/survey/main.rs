@@ -6,6 +6,8 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a survey prints its tables")]
 #![allow(clippy::expect_used, reason = "without its data a survey ends")]
 
+#[path = "../../tests/common/clicked.rs"]
+mod clicked;
 #[path = "../../tests/common/mod.rs"]
 mod common;
 #[path = "../../tests/common/cutting.rs"]

@@ -2,7 +2,7 @@
 
 use crate::arguments::Arguments;
 use crate::case::{Case, mean_and_quantiles};
-use crate::clicks::{Random, moved};
+use crate::clicked::{Random, moved};
 use conemap::coarse_map::class_search::{Chosen, ClassChoice, ClassSearchOptions, choose_class};
 use conemap::coarse_map::multilevel::CoarseMap;
 use conemap::coarse_map::{LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse, coarse_levels};

@@ -2,7 +2,7 @@
 
 use crate::arguments::Arguments;
 use crate::case::{Case, Make, map_all};
-use crate::clicks::Random;
+use crate::clicked::Random;
 use crate::table::{compare, header};
 use conemap::mesh::closest_point::closest_point;
 use conemap::mesh::{SurfaceMesh, SurfacePoint};

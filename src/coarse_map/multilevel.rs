@@ -45,6 +45,8 @@ pub struct CoarseMap<'a> {
     pub mean_log: f64,
     /// Median distortion of both coarse levels by area; 1 for an isometry.
     pub median: f64,
+    /// E of both coarse levels, 4 for an isometry.
+    plain_energy: f64,
     /// The areas, on the source's and on the target's level, of the pieces that are skin on both.
     skin_areas: [f64; 2],
     /// The energy that is lowered on finer levels.
@@ -87,6 +89,7 @@ pub fn solve_coarse<'a>(
         levels,
         mean_log: f64::INFINITY,
         median: f64::INFINITY,
+        plain_energy: f64::INFINITY,
         skin_areas: [1.0; 2],
         energy: options.fine.energy,
         patch_fit: [1.0; 2],
@@ -121,16 +124,21 @@ pub(super) fn parametrised_levels<'a>(
 }
 
 impl CoarseMap<'_> {
-    /// Relaxes the chosen coarse map, and again by [`MapEnergy::POSES`] where it is between two poses of one body.
+    /// Relaxes the chosen coarse map, and again by [`MapEnergy::POSES`] where it is between two poses of one body: where it distorts little, and
+    /// costs little E that way.
     ///
     /// # Errors
     /// [`MapError::Cancelled`].
     pub fn finish(&mut self, options: &MultilevelOptions, monitor: &mut dyn Monitor) -> Result<(), MapError> {
         self.relax(&options.coarse, &mut Portion::new(monitor, 0.0, 0.5))?;
         if self.median < options.pose_median && self.mean_log < options.pose_mean_log {
+            let as_two_bodies = self.clone();
             self.energy = MapEnergy::POSES;
             let poses = MapRelaxationOptions { energy: self.energy, ..options.coarse };
             self.relax(&poses, &mut Portion::new(monitor, 0.5, 1.0))?;
+            if self.plain_energy > options.pose_cost * as_two_bodies.plain_energy {
+                *self = as_two_bodies;
+            }
         }
         Ok(())
     }
@@ -203,8 +211,11 @@ impl CoarseMap<'_> {
         options: &MapRelaxationOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<(), MapError> {
-        let measure = |relaxed: &Relaxed<'_>| (relaxed.mean_log(), relaxed.median(), relaxed.skin_areas());
-        (self.mean_log, self.median, self.skin_areas) = self.lower(options, monitor, measure)?;
+        let measure = |relaxed: &Relaxed<'_>| {
+            (relaxed.mean_log(), relaxed.median(), relaxed.energy(MapEnergy::PLAIN), relaxed.skin_areas())
+        };
+        (self.mean_log, self.median, self.plain_energy, self.skin_areas) =
+            self.lower(options, monitor, measure)?;
         Ok(())
     }
 

@@ -49,6 +49,8 @@ pub struct MultilevelOptions {
     pub pose_median: f64,
     /// The largest mean log density of a map between two poses of one body.
     pub pose_mean_log: f64,
+    /// The factor by which E of a map between two poses of one body grows, at most, when it is relaxed by [`MapEnergy::POSES`].
+    pub pose_cost: f64,
     /// The relaxation of the map on every finer level.
     pub fine: MapRelaxationOptions,
     /// Options of the registration of patches between two poses of one body.
@@ -112,6 +114,9 @@ impl Default for MultilevelOptions {
             // Poses of horses have .09 to .15, those of people with 6 landmarks up to .23; cat and lion .18, other pairs of the same kind of
             // animal .21 and more: patches that do not fit each other tell those apart on finer levels.
             pose_mean_log: 0.3,
+            // Poses have up to 1.025 (some three hundred coarse maps), cat and lion up to 1.017, shrec07-387-397 from 1.05 to 1.10, whose patches
+            // fit as those of two people do.
+            pose_cost: 1.04,
             // A finer level starts near its optimum. Chosen by hand, not measured at half and double.
             fine: MapRelaxationOptions {
                 max_rounds: 10,

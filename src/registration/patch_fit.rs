@@ -430,7 +430,7 @@ mod tests {
     /// A disc around a vertex; its images have slid by `slid` over the surface.
     fn patch(surface: &OrientedSurface<'_>, slid: DVec3) -> Vec<PatchPoint> {
         let positions = surface.mesh.positions();
-        let centre = surface.nearest(VertexId(0), DVec3::new(0.6, 0.5, 0.6));
+        let centre = surface.nearest(VertexId(0), DVec3::new(0.6, 0.5, 0.6)).vertex;
         let inside = surface.mesh.vertices().filter(|&v| positions[v].distance(positions[centre]) < 0.3);
         let point = |v: VertexId| {
             let image = positions[v] + slid;
@@ -444,8 +444,8 @@ mod tests {
     fn hills_bring_a_patch_back_to_where_it_belongs() {
         let mesh = hilly();
         let surface = OrientedSurface::new(&mesh);
-        let mut points = patch(&surface, DVec3::new(0.02, -0.03, 0.01));
-        let fit = Fitter::default().fit(&mut points, &surface, &OPTIONS).unwrap();
+        let points = patch(&surface, DVec3::new(0.02, -0.03, 0.01));
+        let fit = Fitter::default().fit(&points, &surface, &OPTIONS).unwrap();
         assert!(fit.centre.distance(points[0].position) < 2e-3, "{fit:?}");
         assert!(fit.misfit < 1e-6, "{fit:?}");
     }
@@ -466,7 +466,7 @@ mod tests {
             p.near = onto.nearest(VertexId(0), p.image);
         }
         let fit = |stiffness: Option<f64>| {
-            Fitter::default().fit(&mut points.clone(), &onto, &FitOptions { stiffness, ..OPTIONS }).unwrap()
+            Fitter::default().fit(&points, &onto, &FitOptions { stiffness, ..OPTIONS }).unwrap()
         };
         let [rigid, stiff, soft] = [None, Some(1e6), Some(1e-9)].map(fit);
         assert!(soft.misfit < 0.2 * rigid.misfit, "{soft:?} {rigid:?}");
@@ -483,7 +483,7 @@ mod tests {
         for f in ball.faces() {
             let [p, q, r] = ball.corners(f);
             let outwards = (p + q * 0.7 + r * 0.8).normalize();
-            let near = surface.nearest(ball.triangles()[f][0], outwards * 1.003);
+            let near = surface.nearest(ball.triangles()[f][0], outwards * 1.003).vertex;
             let Foot { distance, normal } = surface.foot(near, outwards * 1.003);
             let plane = (ball.positions()[near] - outwards * 1.003).dot(surface.normals[near]);
             let errors = |distance: f64, normal: DVec3| [(distance + 0.003).abs(), normal.distance(outwards)];
@@ -517,15 +517,15 @@ mod tests {
     fn a_plain_ball_holds_no_patch() {
         let ball = icosphere(5);
         let surface = OrientedSurface::new(&ball);
-        let mut points = patch(&surface, DVec3::ZERO);
+        let points = patch(&surface, DVec3::ZERO);
         let held = |mesh: &SurfaceMesh| {
             let surface = OrientedSurface::new(mesh);
-            let fit = Fitter::default().fit(&mut patch(&surface, DVec3::ZERO), &surface, &OPTIONS).unwrap();
-            let normal = surface.normals[surface.nearest(VertexId(0), fit.centre)];
+            let fit = Fitter::default().fit(&patch(&surface, DVec3::ZERO), &surface, &OPTIONS).unwrap();
+            let normal = surface.normals[surface.nearest(VertexId(0), fit.centre).vertex];
             let along = normal.any_orthonormal_vector();
             along.dot(fit.hold * along)
         };
         assert!(held(&ball) < 0.02 * held(&hilly()), "{} {}", held(&ball), held(&hilly()));
-        assert!(Fitter::default().fit(&mut points[..0], &surface, &OPTIONS).is_none());
+        assert!(Fitter::default().fit(&points[..0], &surface, &OPTIONS).is_none());
     }
 }

@@ -13,7 +13,7 @@ pub fn with_points(
     vertices: [&[VertexId]; 2],
     weights: [f64; 3],
 ) -> DistortionReport {
-    let inserted = [0, 1].map(|k| {
+    let places = [0, 1].map(|k| {
         let beside = |&v: &VertexId| {
             let at = SurfacePoint::at_vertex(meshes[k], v);
             let own = (0..3).find(|&c| at.barycentric[c] == 1.0).unwrap();
@@ -21,8 +21,14 @@ pub fn with_points(
             (0..3).for_each(|c| barycentric[(own + c) % 3] = weights[c]);
             SurfacePoint { face: at.face, barycentric }
         };
-        insert(meshes[k], &vertices[k].iter().map(beside).collect::<Vec<_>>()).unwrap()
+        vertices[k].iter().map(beside).collect()
     });
+    with_landmarks_at(meshes, places)
+}
+
+/// The distortion of the certified map whose landmarks lie at the given points.
+pub fn with_landmarks_at(meshes: [&SurfaceMesh; 2], places: [Vec<SurfacePoint>; 2]) -> DistortionReport {
+    let inserted = [0, 1].map(|k| insert(meshes[k], &places[k]).unwrap());
     let landmarks = Landmarks {
         source: inserted[0].vertices.clone().into(),
         target: inserted[1].vertices.clone().into(),

@@ -10,6 +10,8 @@ use std::process::ExitCode;
 
 #[path = "../common/classes.rs"]
 mod classes;
+#[path = "../common/clicked.rs"]
+mod clicked;
 #[cfg(feature = "cli")]
 #[path = "../common/command_line.rs"]
 mod command_line;

@@ -100,13 +100,26 @@ impl Evaluation {
         }
     }
 
-    fn integral(&self, energy: MapEnergy) -> f64 {
+    /// The integral of an energy over both surfaces.
+    pub fn integral(&self, energy: MapEnergy) -> f64 {
+        self.of_pieces(energy).map(|(_, of_piece)| of_piece).sum()
+    }
+
+    /// The part of each moving face in that integral.
+    pub fn by_face(&self, energy: MapEnergy) -> Vec<f64> {
+        let mut sums = vec![0.0; self.jacobians.len()];
+        self.of_pieces(energy).for_each(|(face, of_piece)| sums[face] += of_piece);
+        sums
+    }
+
+    /// The energy of each piece, with the number of its moving face.
+    fn of_pieces(&self, energy: MapEnergy) -> impl Iterator<Item = (usize, f64)> {
         let pieces = self.overlay.pieces().iter().zip(&self.onto_rest).zip(&self.weights);
-        let part = pieces.map(|((piece, c), &counted)| {
-            let a = &self.jacobians[piece.source_face.index()];
-            piece.area / a.determinant() * energy.of_piece(counted).density(&(*c * *a))
-        });
-        part.sum()
+        pieces.map(move |((piece, c), &counted)| {
+            let face = piece.source_face.index();
+            let a = &self.jacobians[face];
+            (face, piece.area / a.determinant() * energy.of_piece(counted).density(&(*c * *a)))
+        })
     }
 
     /// Half the sum of the weighted means of the density's logarithm over both surfaces. The area that its weight takes from a piece with
