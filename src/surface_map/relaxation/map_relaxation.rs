@@ -181,6 +181,10 @@ pub fn relax_constrained<'a>(
 /// Directions that are tried for a step: the Newton direction, and the same with the vertices held that make the energy rise.
 const ATTEMPTS: usize = 4;
 
+/// Faces whose corners are held for a step, at most: one to four where a vertex beside a dent stops all others; thirty and more where
+/// both meshes coincide, whose energy has a kink in every direction. Chosen on a few steps of either kind.
+const MOST_RISERS: usize = 8;
+
 /// A line along which the energy may fall.
 struct Line<'a> {
     start: &'a [DVec2],
@@ -368,7 +372,8 @@ impl<'a> Relaxation<'a> {
             match self.go(&Line { start: &z, step: &step, slope: &slope }, monitor)? {
                 Outcome::Lower => return Ok(true),
                 Outcome::NoWay => return Ok(false),
-                Outcome::Higher => self.hold_risers(&mut step),
+                Outcome::Higher if self.hold_risers(&mut step) => {}
+                Outcome::Higher => return Ok(false),
             }
         }
         Ok(false)
@@ -402,16 +407,22 @@ impl<'a> Relaxation<'a> {
         Ok(if has_overlay { Outcome::Higher } else { Outcome::NoWay })
     }
 
-    /// Keeps those corners where they are whose faces' energies rise most in the trial: of the fewest faces that have half of all that rises.
+    /// Keeps the corners of those faces where they are whose energies rise most in the trial: of the fewest faces that have half of all that
+    /// rises. `false` where these are more than a few ([`MOST_RISERS`]).
     ///
     /// Where a limb without a landmark is squeezed into a dent, the density changes within a millionth of a length. A single vertex beside it
     /// may promise more than the whole energy, and then no part of the step lowers it, however short.
-    fn hold_risers(&self, step: &mut [DVec2]) {
+    fn hold_risers(&self, step: &mut [DVec2]) -> bool {
         let [before, after] = [&self.present, &self.trial].map(|seen| seen.by_face(self.map_energy));
         let rises = after.iter().zip(&before).map(|(after, before)| after - before).enumerate();
         let mut rises: Vec<(usize, f64)> = rises.filter(|(_, rise)| *rise > 0.0).collect();
         rises.sort_unstable_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-        let mut left = 0.5 * rises.iter().map(|(_, rise)| rise).sum::<f64>();
+        let half = 0.5 * rises.iter().map(|(_, rise)| rise).sum::<f64>();
+        rises.truncate(MOST_RISERS);
+        if rises.is_empty() || rises.iter().map(|(_, rise)| rise).sum::<f64>() < half {
+            return false;
+        }
+        let mut left = half;
         for (face, rise) in rises {
             if left <= 0.0 {
                 break;
@@ -423,6 +434,7 @@ impl<'a> Relaxation<'a> {
                 }
             }
         }
+        true
     }
 
     fn accept(&mut self) {
@@ -639,7 +651,7 @@ pub(super) mod tests {
             assert!(relaxation.evaluate(&moved, &mut Silent).unwrap());
             assert!(relaxation.trial.total > relaxation.present.total);
             let mut step = vec![DVec2::ONE; z.len()];
-            relaxation.hold_risers(&mut step);
+            assert!(relaxation.hold_risers(&mut step));
             let held = step.iter().filter(|d| **d == DVec2::ZERO).count();
             assert!(step[k] == DVec2::ZERO && held < 8, "{held} of {} held", z.len());
         }
