@@ -13,9 +13,11 @@ async function source(page: Page): Promise<Buffer> {
   return page.screenshot({ clip: { x: box.x, y: box.y + 48, width: box.width, height: box.height - 120 } });
 }
 
+/** A demo whose run goes on for longer than a picture takes, and makes several previews also where the machine is busy. */
+const LONG_RUN = '#demo=wolf-cow';
+
 test('the coarse map is seen while the run goes on, and is gone with it', async ({ page }) => {
-  // Its run goes on for longer than a picture takes.
-  await openDemo(page, '#demo=wolf-cow');
+  await openDemo(page, LONG_RUN);
   await openStep(page, 'map');
   await page.waitForTimeout(SETTLED);
   const before = await source(page);
@@ -33,7 +35,7 @@ test('the coarse map is seen while the run goes on, and is gone with it', async 
 
 test('previews come nearer to the map, and are gone at its end', async ({ page }) => {
   await keepPreviews(page);
-  await openDemo(page);
+  await openDemo(page, LONG_RUN);
   await openStep(page, 'map');
   await page.locator('#run').click();
   await finished(page);
