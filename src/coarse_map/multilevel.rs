@@ -45,8 +45,6 @@ pub struct CoarseMap<'a> {
     pub mean_log: f64,
     /// Median distortion of both coarse levels by area; 1 for an isometry.
     pub median: f64,
-    /// E of both coarse levels, 4 for an isometry.
-    plain_energy: f64,
     /// The areas, on the source's and on the target's level, of the pieces that are skin on both.
     skin_areas: [f64; 2],
     /// The energy that is lowered on finer levels.
@@ -89,7 +87,6 @@ pub fn solve_coarse<'a>(
         levels,
         mean_log: f64::INFINITY,
         median: f64::INFINITY,
-        plain_energy: f64::INFINITY,
         skin_areas: [1.0; 2],
         energy: options.fine.energy,
         patch_fit: [1.0; 2],
@@ -130,13 +127,13 @@ impl CoarseMap<'_> {
     /// # Errors
     /// [`MapError::Cancelled`].
     pub fn finish(&mut self, options: &MultilevelOptions, monitor: &mut dyn Monitor) -> Result<(), MapError> {
-        self.relax(&options.coarse, &mut Portion::new(monitor, 0.0, 0.5))?;
+        let energy = self.relax(&options.coarse, &mut Portion::new(monitor, 0.0, 0.5))?;
         if self.median < options.pose_median && self.mean_log < options.pose_mean_log {
             let as_two_bodies = self.clone();
             self.energy = MapEnergy::POSES;
             let poses = MapRelaxationOptions { energy: self.energy, ..options.coarse };
-            self.relax(&poses, &mut Portion::new(monitor, 0.5, 1.0))?;
-            if self.plain_energy > options.pose_cost * as_two_bodies.plain_energy {
+            let energy_as_poses = self.relax(&poses, &mut Portion::new(monitor, 0.5, 1.0))?;
+            if energy_as_poses > options.pose_cost * energy {
                 *self = as_two_bodies;
             }
         }
@@ -202,7 +199,7 @@ impl CoarseMap<'_> {
         })
     }
 
-    /// Lowers the energy of the map of the coarse levels and measures it.
+    /// Lowers the energy of the map of the coarse levels and measures it. Returns E, 4 for an isometry, whichever energy was lowered.
     ///
     /// # Errors
     /// [`MapError::Cancelled`].
@@ -210,13 +207,13 @@ impl CoarseMap<'_> {
         &mut self,
         options: &MapRelaxationOptions,
         monitor: &mut dyn Monitor,
-    ) -> Result<(), MapError> {
+    ) -> Result<f64, MapError> {
         let measure = |relaxed: &Relaxed<'_>| {
-            (relaxed.mean_log(), relaxed.median(), relaxed.energy(MapEnergy::PLAIN), relaxed.skin_areas())
+            (relaxed.mean_log(), relaxed.median(), relaxed.skin_areas(), relaxed.energy(MapEnergy::PLAIN))
         };
-        (self.mean_log, self.median, self.plain_energy, self.skin_areas) =
-            self.lower(options, monitor, measure)?;
-        Ok(())
+        let energy;
+        (self.mean_log, self.median, self.skin_areas, energy) = self.lower(options, monitor, measure)?;
+        Ok(energy)
     }
 
     /// Whether both present levels have at least this many vertices.

@@ -67,7 +67,7 @@ pub(super) fn judge(
     let mut judged = measured(shapes, &full, &map);
     if judged.as_ref().is_some_and(|(first, _)| promises(first)) {
         let relaxed = unless_stopped(map.relax(&options.relaxation, &mut Portion::new(monitor, 0.8, 1.0)))?;
-        judged = relaxed.and_then(|()| measured(shapes, &full, &map));
+        judged = relaxed.and_then(|_| measured(shapes, &full, &map));
     }
     let Some((measures, images)) = judged else { return Ok(None) };
     let patch_fit = patch_fit(&full, &images, options, &mut Portion::new(monitor, 1.0, 1.0))?;

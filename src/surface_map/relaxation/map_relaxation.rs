@@ -418,20 +418,20 @@ impl<'a> Relaxation<'a> {
         let mut rises: Vec<(usize, f64)> = rises.filter(|(_, rise)| *rise > 0.0).collect();
         rises.sort_unstable_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
         let half = 0.5 * rises.iter().map(|(_, rise)| rise).sum::<f64>();
-        rises.truncate(MOST_RISERS);
-        if rises.is_empty() || rises.iter().map(|(_, rise)| rise).sum::<f64>() < half {
+        let mut sum = 0.0;
+        let lacks = |&(_, rise): &(usize, f64)| {
+            let lacks = sum < half;
+            sum += rise;
+            lacks
+        };
+        let risers: Vec<_> = rises.into_iter().take_while(lacks).collect();
+        if risers.is_empty() || risers.len() > MOST_RISERS {
             return false;
         }
-        let mut left = half;
-        for (face, rise) in rises {
-            if left <= 0.0 {
-                break;
-            }
-            left -= rise;
-            for corner in &self.problems[self.moving].triangles()[face].corners {
-                if let Corner::Free(v, _) = corner {
-                    step[*v as usize] = DVec2::ZERO;
-                }
+        let triangles = self.problems[self.moving].triangles();
+        for corner in risers.iter().flat_map(|(face, _)| &triangles[*face].corners) {
+            if let Corner::Free(v, _) = corner {
+                step[*v as usize] = DVec2::ZERO;
             }
         }
         true
