@@ -8,15 +8,14 @@ use crate::arguments::Arguments;
 use crate::clicked::{Random, moved};
 use crate::common;
 use crate::fit_faults as faults;
-use conemap::landmark_fit::{Finding, landmark_fit};
+use conemap::landmark_fit::Finding;
 use conemap::landmarks::Landmarks;
-use conemap::layout::LandmarkDistances;
 use conemap::mesh::coarsening::Level;
 use conemap::mesh::insertion::insert;
 use conemap::mesh::mirror::mirrored;
 use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use conemap::monitor::Silent;
-use conemap::pipeline::FINDINGS_VERTICES;
+use conemap::pipeline::{FINDINGS_VERTICES, landmark_doubts};
 use cpu_time::ThreadTime;
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
@@ -56,8 +55,7 @@ impl Fit {
 
     pub fn findings(&self) -> Vec<Finding> {
         let meshes = [&self.meshes[0], &self.meshes[1]];
-        let distances = LandmarkDistances::new(meshes, &self.landmarks, &mut Silent).expect("nobody stops");
-        landmark_fit(meshes, &self.landmarks, &distances, &mut Silent).expect("nobody stops")
+        landmark_doubts(meshes, &self.landmarks, &mut Silent).expect("nobody stops")
     }
 
     /// The same meshes with some of the landmarks, chosen at random and in random order.
@@ -66,6 +64,11 @@ impl Fit {
         let count = count.min(left.len());
         let chosen: Vec<usize> =
             (0..count).map(|_| left.swap_remove((random.share() * left.len() as f64) as usize)).collect();
+        self.only(&chosen)
+    }
+
+    /// The same meshes with these landmarks alone, in this order.
+    pub fn only(&self, chosen: &[usize]) -> Self {
         let of = |all: &[VertexId]| chosen.iter().map(|&k| all[k]).collect();
         let landmarks =
             Landmarks { source: of(&self.landmarks.source.raw), target: of(&self.landmarks.target.raw) };
@@ -143,9 +146,9 @@ pub fn table(arguments: &Arguments) {
     named.print("faults", ["named", "first, alone", "another pair"]);
 }
 
-/// Prints the processor time that the doubts take, and that of the coarse levels and the distances that they need.
+/// Prints the processor time that the doubts take, and that of the coarse levels that they need.
 fn processor_time(arguments: &Arguments) {
-    let mut seconds = [0.0; 3];
+    let mut seconds = [0.0; 2];
     for name in arguments.names() {
         let pair = common::read_pair(&arguments.data, &name);
         let landmarks = common::landmarks(&pair);
@@ -153,36 +156,34 @@ fn processor_time(arguments: &Arguments) {
         let fit = Fit::coarse(&name, [&pair.source, &pair.target], &landmarks);
         seconds[0] += begun.elapsed().as_secs_f64();
         let begun = ThreadTime::now();
-        let meshes = [&fit.meshes[0], &fit.meshes[1]];
-        let distances = LandmarkDistances::new(meshes, &fit.landmarks, &mut Silent).expect("nobody stops");
+        fit.findings();
         seconds[1] += begun.elapsed().as_secs_f64();
-        let begun = ThreadTime::now();
-        landmark_fit(meshes, &fit.landmarks, &distances, &mut Silent).expect("nobody stops");
-        seconds[2] += begun.elapsed().as_secs_f64();
     }
-    let [levels, distances, fit] = seconds;
-    println!("cpu: coarse levels {levels:.2} s, distances {distances:.2} s, landmark_fit {fit:.3} s");
+    let [levels, doubts] = seconds;
+    println!("cpu: coarse levels {levels:.2} s, doubts {doubts:.2} s");
 }
 
-/// Counts the alarms on a correct pair, with all of its landmarks and with some.
+/// Counts the alarms on a correct pair, with all of its landmarks, with some, and with few ends of limbs.
 fn correct(row: &str, fit: &Fit, random: &mut Random, alarms: &mut Counts) {
-    let mut count = |landmarks: usize, fit: &Fit| {
-        let findings = fit.findings();
-        let any = |is: fn(&Finding) -> bool| findings.iter().any(is);
-        let kinds = [
-            any(|f| matches!(f, Finding::Mirrored { .. })),
-            any(|f| matches!(f, Finding::Swapped { .. })),
-            any(|f| matches!(f, Finding::Misplaced { .. })),
-        ];
-        if !findings.is_empty() {
-            println!("alarm: {} {row}, landmarks {:?}: {findings:?}", fit.name, fit.numbers);
-        }
-        alarms.add(row, landmarks, kinds);
-    };
-    count(usize::MAX, fit);
+    alarm(row, usize::MAX, fit, alarms);
     for landmarks in COUNTS {
-        count(landmarks, &fit.some(landmarks, random));
+        alarm(row, landmarks, &fit.some(landmarks, random), alarms);
+        alarm(&format!("{row}, ends"), landmarks, &faults::with_ends(fit, &[], landmarks).0, alarms);
     }
+}
+
+fn alarm(row: &str, landmarks: usize, fit: &Fit, alarms: &mut Counts) {
+    let findings = fit.findings();
+    let any = |is: fn(&Finding) -> bool| findings.iter().any(is);
+    let kinds = [
+        any(|f| matches!(f, Finding::Mirrored { .. })),
+        any(|f| matches!(f, Finding::Swapped { .. })),
+        any(|f| matches!(f, Finding::Misplaced { .. })),
+    ];
+    if !findings.is_empty() {
+        println!("alarm: {} {row}, landmarks {:?}: {findings:?}", fit.name, fit.numbers);
+    }
+    alarms.add(row, landmarks, kinds);
 }
 
 fn clicked(name: &str, meshes: [&SurfaceMesh; 2], landmarks: &Landmarks, random: &mut Random) -> Fit {

@@ -3,6 +3,7 @@
 
 use crate::clicked::Random;
 use crate::common::Pair;
+use crate::ends::ends;
 use crate::fit::{COUNTS, Counts, Fit};
 use crate::shrec07;
 use conemap::landmark_fit::{Finding, Repair};
@@ -37,7 +38,11 @@ pub fn partners(pair: &Pair) -> Vec<[usize; 2]> {
 /// Puts in and counts all faults but those of bent meshes.
 pub fn all(fit: &Fit, partners: &[[usize; 2]], random: &mut Random, named: &mut Counts) {
     mirror("mirrored", fit, random, named);
-    single("left and right", fit, partners, named);
+    single("left and right", usize::MAX, fit, partners, named);
+    for landmarks in COUNTS {
+        let (ends, partners) = with_ends(fit, partners, landmarks);
+        single("left and right, ends", landmarks, &ends, &partners, named);
+    }
     several(fit, partners, random, named);
     for landmarks in COUNTS.into_iter().chain([usize::MAX]) {
         for _ in 0..REPETITIONS {
@@ -60,12 +65,20 @@ pub fn mirror(row: &str, fit: &Fit, random: &mut Random, named: &mut Counts) {
 }
 
 /// Exchanges the targets of each pair of partners in turn.
-fn single(row: &str, fit: &Fit, partners: &[[usize; 2]], named: &mut Counts) {
+fn single(row: &str, landmarks: usize, fit: &Fit, partners: &[[usize; 2]], named: &mut Counts) {
     for &[a, b] in partners {
         let mut wrong = fit.clone();
         wrong.landmarks.target.raw.swap(a, b);
-        count((row, usize::MAX), &wrong, [a.min(b), a.max(b)], named);
+        count((row, landmarks), &wrong, [a.min(b), a.max(b)], named);
     }
+}
+
+/// The same meshes with few of the landmarks, mostly ends of limbs, and the partners among them.
+pub fn with_ends(fit: &Fit, partners: &[[usize; 2]], count: usize) -> (Fit, Vec<[usize; 2]>) {
+    let chosen = ends(&fit.meshes[0], &fit.landmarks.source.raw, count);
+    let place = |k: usize| chosen.iter().position(|&c| c == k);
+    let partners = partners.iter().filter_map(|&[a, b]| Some([place(a)?, place(b)?])).collect();
+    (fit.only(&chosen), partners)
 }
 
 /// Exchanges the targets of two and of three pairs of partners at once: these count as named where a swap that is found is one of them.

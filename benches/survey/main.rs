@@ -12,6 +12,8 @@ mod clicked;
 mod common;
 #[path = "../../tests/common/cutting.rs"]
 mod cutting;
+#[path = "../../tests/common/ends.rs"]
+mod ends;
 #[path = "../../tests/common/hostile_geometry.rs"]
 mod hostile_geometry;
 #[path = "../../tests/common/judged_job.rs"]

@@ -1,6 +1,7 @@
 //! Coarse maps: the class of the map is chosen among maps of two coarse levels, and the chosen map is refined to the full meshes.
 
 mod best_images;
+mod brief;
 pub mod class_search;
 mod distance_guess;
 mod error;
@@ -19,6 +20,7 @@ mod skin;
 pub mod unrelaxed;
 
 pub use best_images::share_elsewhere;
+pub use brief::{BriefOptions, brief_map};
 pub use error::CoarseMapError;
 pub use landmarked_mesh::{LEAST_PER_LANDMARK, LandmarkedMesh};
 pub use mesh_with_coarse::{MeshWithCoarse, both as coarse_levels, coarse_landmarks};

@@ -81,20 +81,33 @@ impl<'a> Fit<'a> {
 
     /// Mean misfit of two pairs as it is and with their targets exchanged; `None` where the exchange raises the misfit of either pair by
     /// more than [`WORSE`], or lowers it little and another place fits one of them much better.
-    pub(super) fn exchanged(&self, [a, b]: [LandmarkId; 2]) -> Option<[f64; 2]> {
-        let both = [(a, b), (b, a)];
-        let now = both.map(|(i, j)| self.misfit(i, self.place(i), Some(j)));
-        let then = both.map(|(i, j)| self.misfit(i, self.place(j), Some(j)));
+    pub(super) fn exchanged(&self, pairs: [LandmarkId; 2]) -> Option<[f64; 2]> {
+        let both = [pairs, [pairs[1], pairs[0]]];
+        let [now, then] = self.misfits(pairs);
         let worse = max(then[0] - now[0], then[1] - now[1]);
         let settled = |k: usize| {
-            let (i, j) = both[k];
+            let [i, j] = both[k];
             let places = self.target[i].keys();
             let best = places.map(|v| self.misfit(i, v, Some(j))).fold(f64::INFINITY, min);
             then[k] - best < PLACE_GAIN || best > PLACE_SHARE * then[k]
         };
-        let means = [now, then].map(|pair| 0.5 * (pair[0] + pair[1]));
+        let means = means([now, then]);
         let helps = means[1] < SWAP_SHARE * means[0];
         (worse < WORSE && (helps || (settled(0) && settled(1)))).then_some(means)
+    }
+
+    /// Misfit of each of two pairs as it is, and with their targets exchanged.
+    fn misfits(&self, [a, b]: [LandmarkId; 2]) -> [[f64; 2]; 2] {
+        let both = [(a, b), (b, a)];
+        let now = both.map(|(i, j)| self.misfit(i, self.place(i), Some(j)));
+        let then = both.map(|(i, j)| self.misfit(i, self.place(j), Some(j)));
+        [now, then]
+    }
+
+    /// Mean misfit of two pairs as it is and with their targets exchanged; `None` where the exchange raises it by more than [`WORSE`].
+    pub(super) fn mean_misfits(&self, pairs: [LandmarkId; 2]) -> Option<[f64; 2]> {
+        let [now, then] = means(self.misfits(pairs));
+        (then - now < WORSE).then_some([now, then])
     }
 
     /// The pair of largest misfit for which a place far from its target fits much better.
@@ -129,4 +142,9 @@ impl<'a> Fit<'a> {
         let clear = now - then > gain && then < PLACE_SHARE * now && distance > PLACE_DISTANCE;
         clear.then_some(Finding::Misplaced { pair, misfit: [now, then], distance, place, near })
     }
+}
+
+/// The means of two pairs' misfits, as it is and exchanged.
+fn means(misfits: [[f64; 2]; 2]) -> [f64; 2] {
+    misfits.map(|[a, b]| 0.5 * (a + b))
 }

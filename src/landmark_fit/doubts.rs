@@ -24,7 +24,21 @@ const LEAST_FOR_PLACES: usize = 8;
 /// strongly, and for none of the others.
 const MIRRORED: f64 = -0.4;
 
-/// Checks whether landmark pairs can belong to a map of low distortion; no findings when all fit.
+/// What the comparison of distances, orders and volumes says about landmark pairs.
+#[derive(Clone, Debug, Default)]
+pub struct LandmarkFit {
+    /// The doubts that are clear; none when all pairs fit.
+    pub findings: Vec<Finding>,
+    /// Exchanges of two targets, each a [`Finding::Swapped`], that are favoured or hardly opposed, the most favoured first: those of the findings and
+    /// others. Among few landmarks most swapped pairs are found here alone, and some of the findings are wrong: maps with and without an
+    /// exchange tell. None where the set is mirrored, or has more than forty pairs.
+    pub favoured: Vec<Finding>,
+}
+
+/// Landmarks among which exchanges are favoured that are not clear, at most: of larger sets nearly all exchanges are clear. Chosen by hand.
+const MOST_UNCLEAR: usize = 40;
+
+/// Checks whether landmark pairs can belong to a map of low distortion.
 ///
 /// `distances` are those of the same meshes and landmarks; the meshes should be coarse (some 1000 vertices) for speed. The time grows
 /// steeply with the landmarks, so the caller should not pass more than [`MOST_COMPARED`].
@@ -36,7 +50,7 @@ pub fn landmark_fit(
     landmarks: &Landmarks,
     distances: &LandmarkDistances,
     monitor: &mut dyn Monitor,
-) -> Result<Vec<Finding>, Cancelled> {
+) -> Result<LandmarkFit, Cancelled> {
     let directions = Directions::new(meshes, landmarks, distances);
     monitor.step(Step::default())?;
     let mut fit = Fit::new(landmarks, distances);
@@ -50,10 +64,15 @@ pub fn landmark_fit(
     let as_given = mirrored(&fit.target_of);
     monitor.step(Step::default())?;
     let ways = Exchange::new(distances, &directions, 1.0);
+    let is_large = landmarks.len() > MOST_UNCLEAR;
+    let mut favoured =
+        if is_large { Vec::new() } else { ways.favoured(&fit, &mut Portion::new(monitor, 0.0, 0.0))? };
     let mut findings = exchanges(&mut fit, &ways, &mut Portion::new(monitor, 0.0, 0.4))?;
     // One exchange among few landmarks can reverse most orders: the set is mirrored only where it is so after exchanges, too.
-    if let Some(agreement) = as_given.filter(|_| mirrored(&fit.target_of).is_some()) {
+    let mirrored = as_given.filter(|_| mirrored(&fit.target_of).is_some());
+    if let Some(agreement) = mirrored {
         fit = Fit::new(landmarks, distances);
+        favoured.clear();
         findings = vec![Finding::Mirrored { agreement }];
         let ways = Exchange::new(distances, &directions, -1.0);
         findings.extend(exchanges(&mut fit, &ways, &mut Portion::new(monitor, 0.4, 0.8))?);
@@ -68,7 +87,7 @@ pub fn landmark_fit(
             findings.push(finding);
         }
     }
-    Ok(findings)
+    Ok(LandmarkFit { findings, favoured })
 }
 
 /// Landmarks that are compared with each other, at most: every exchange of two is judged by all pairs of the others. Chosen by hand.

@@ -15,6 +15,6 @@ mod exchange;
 mod finding;
 mod orders;
 
-pub use doubts::{MOST_COMPARED, landmark_fit};
+pub use doubts::{LandmarkFit, MOST_COMPARED, landmark_fit};
 pub use finding::{Finding, Repair};
 pub use orders::order_agreement;

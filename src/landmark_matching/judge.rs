@@ -2,9 +2,8 @@
 
 use super::options::MatchOptions;
 use super::shape::Shape;
-use crate::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use crate::coarse_map::multilevel::{CoarseMap, LevelImages};
-use crate::coarse_map::{LEAST_PER_LANDMARK, LandmarkedMesh, MeshWithCoarse};
+use crate::coarse_map::{LandmarkedMesh, brief_map};
 use crate::landmarks::MeshSide;
 use crate::math::barycentric::interpolated;
 use crate::mesh::{SurfacePoint, VertexId};
@@ -45,33 +44,19 @@ pub(super) fn judge(
     promises: impl Fn(&Measures) -> bool,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<Judged>, Cancelled> {
-    let landmarked = |side: MeshSide| {
-        let vertices: Vec<VertexId> = pairs.iter().map(|pair| pair[side]).collect();
-        LandmarkedMesh::new(&shapes[side].level.mesh, &vertices)
-    };
-    let [Ok(source), Ok(target)] = MeshSide::BOTH.map(landmarked) else { return Ok(None) };
-    let full = [source, target];
-    let vertices = options.judge_vertices.max(LEAST_PER_LANDMARK * pairs.len());
-    let mut coarse = |k: usize| {
-        let preparing = &mut Portion::new(monitor, 0.0, 0.0);
-        MeshWithCoarse::new(&full[k], vertices, options.multilevel.rims, preparing)
-    };
-    let levels = [coarse(0)?, coarse(1)?];
-    let class = ClassSearchOptions {
-        multilevel: &options.multilevel,
-        search: &options.search,
-        choice: ClassChoice::Best,
-    };
-    let chosen = unless_stopped(choose_class(&levels, class, &mut Portion::new(monitor, 0.0, 0.8).unseen()))?;
-    let Some(mut map) = chosen.map(|chosen| chosen.map) else { return Ok(None) };
-    let mut judged = measured(shapes, &full, &map);
-    if judged.as_ref().is_some_and(|(first, _)| promises(first)) {
-        let relaxed = unless_stopped(map.relax(&options.relaxation, &mut Portion::new(monitor, 0.8, 1.0)))?;
-        judged = relaxed.and_then(|_| measured(shapes, &full, &map));
-    }
-    let Some((measures, images)) = judged else { return Ok(None) };
-    let patch_fit = patch_fit(&full, &images, options, &mut Portion::new(monitor, 1.0, 1.0))?;
-    Ok(Some(Judged { measures, patch_fit, images }))
+    let vertices = MeshSide::BOTH.map(|side| pairs.iter().map(|pair| pair[side]).collect::<Vec<VertexId>>());
+    let meshes = shapes.map(|shape| &shape.level.mesh);
+    let [source, target] = &vertices;
+    brief_map(meshes, [source, target], &options.brief, monitor, |full, mut map, monitor| {
+        let mut judged = measured(shapes, full, &map);
+        if judged.as_ref().is_some_and(|(first, _)| promises(first)) {
+            let relaxed = unless_stopped(map.relax(&options.brief.relaxation, monitor))?;
+            judged = relaxed.and_then(|_| measured(shapes, full, &map));
+        }
+        let Some((measures, images)) = judged else { return Ok(None) };
+        let patch_fit = patch_fit(full, &images, options, &mut Portion::new(monitor, 1.0, 1.0))?;
+        Ok(Some(Judged { measures, patch_fit, images }))
+    })
 }
 
 /// The measures of a coarse map, and its images; `None` where a vertex has none.

@@ -1,13 +1,8 @@
 //! Options of the matching of landmarks.
 
-use crate::coarse_map::MultilevelOptions;
-use crate::layout::SearchOptions;
+use crate::coarse_map::BriefOptions;
 use crate::registration::mean_fit::MeanFitOptions;
 use crate::registration::patch_fit::FitOptions;
-use crate::surface_map::energy::map_energy::MapEnergy;
-use crate::surface_map::parametrisation::initial::InitialOptions;
-use crate::surface_map::parametrisation::problem::FlatRelaxOptions;
-use crate::surface_map::relaxation::map_relaxation::MapRelaxationOptions;
 
 /// Options of the matching of landmarks. Distances are in units of the root of the area.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,24 +42,13 @@ pub struct MatchOptions {
     pub changes: usize,
     /// Candidates that are judged on the target's mirror image.
     pub mirrored: usize,
-    /// Vertices of the coarse levels of the maps by which candidates are judged.
-    pub judge_vertices: usize,
-    /// Options of the search for the class of each map.
-    pub search: SearchOptions,
-    /// Options of the coarse maps.
-    pub multilevel: MultilevelOptions,
-    /// The last relaxation before a map is measured.
-    pub relaxation: MapRelaxationOptions,
+    /// Options of the coarse maps by which candidates are judged.
+    pub brief: BriefOptions,
     /// Options of the patches that are fitted to measure a map.
     pub patches: MeanFitOptions,
     /// Limits of the verdict.
     pub limits: VerdictLimits,
 }
-
-/// The relaxation of each coarse parametrisation on its own. With a least decrease of 1e-4, as for maps, judging took 1.6 times as long, for
-/// the same order of candidates on five pairs (both directions); with 0.1, or looser linear solves, a right one of 387-397 was lost.
-const START: FlatRelaxOptions =
-    FlatRelaxOptions { relative_decrease: 0.01, max_steps: 100, linear_tolerance: 0.03 };
 
 impl Default for MatchOptions {
     fn default() -> Self {
@@ -93,29 +77,7 @@ impl Default for MatchOptions {
             changes: 6,
             // Of 20 mirrored hands the first was the right one, by 0.08 and more already after the short relaxation.
             mirrored: 2,
-            // With 300 vertices the order of close candidates changed, with three drawings and three twists in place of one it did not,
-            // at twice the time (four pairs, both directions).
-            judge_vertices: 500,
-            // Of 122 twists of bent drawings of people and animals that made them straighter 119 were the first or second that was tried; descents
-            // that tried all others in vain took a sixth of the time.
-            search: SearchOptions {
-                candidates: 1,
-                descent_patience: 2,
-                twists: 0,
-                ..SearchOptions::default()
-            },
-            multilevel: MultilevelOptions {
-                finer: 0,
-                finalists: 2,
-                initial: InitialOptions { level: START, ..InitialOptions::default() },
-                relax: START,
-                ..MultilevelOptions::default()
-            },
-            relaxation: MapRelaxationOptions {
-                max_rounds: 10,
-                energy: MapEnergy::JUDGE,
-                ..MapRelaxationOptions::default()
-            },
+            brief: BriefOptions::default(),
             // Larger patches than those that draw a map between poses, since a coarse map is 2 to 4 % off. Radii of 0.08 to 0.35, noise of 2e-3 to
             // 8e-3 and spacings of 0.03 to 0.08 rank about as many candidates rightly; a third of the points costs a third.
             patches: MeanFitOptions {

@@ -2,10 +2,10 @@
 //! stable JSON.
 
 use super::MapInput;
-use crate::landmark_fit::{Finding, MOST_COMPARED, Repair, landmark_fit};
+use super::landmark_doubts::landmark_doubts;
+use crate::landmark_fit::{Finding, MOST_COMPARED, Repair};
 use crate::landmark_suggestion::unmarked_limbs;
 use crate::landmarks::{LandmarkId, Landmarks, MeshSide};
-use crate::layout::LandmarkDistances;
 use crate::mesh::coarsening::Level;
 use crate::mesh::{SurfaceMesh, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, Rising, Stage};
@@ -184,8 +184,7 @@ pub fn findings(
     let meshes = [&levels[0].mesh, &levels[1].mesh];
     let mut found = Vec::new();
     if landmarks.len() <= MOST_COMPARED && !monitor.wants_result() {
-        let distances = LandmarkDistances::new(meshes, &landmarks, &mut Portion::new(monitor, 0.0, 0.1))?;
-        found = landmark_fit(meshes, &landmarks, &distances, &mut Portion::new(monitor, 0.1, 0.5))?;
+        found = landmark_doubts(meshes, &landmarks, &mut Portion::new(monitor, 0.0, 0.5))?;
     }
     let mut reports: Vec<_> = found.iter().map(|finding| FindingReport::new(finding, labels)).collect();
     if monitor.wants_result() {

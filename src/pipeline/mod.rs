@@ -6,6 +6,7 @@ mod error;
 mod findings;
 mod flows;
 mod input;
+mod landmark_doubts;
 mod options;
 mod other_map;
 mod outcome;
@@ -27,6 +28,7 @@ pub use error::PipelineError;
 pub use findings::{FINDINGS_VERTICES, FindingKind, FindingReport, RepairKind, findings};
 pub use flows::{flat_surfaces, recorded_flows};
 pub use input::{CapFaces, GroundTruth, MapInput};
+pub use landmark_doubts::landmark_doubts;
 pub use options::{
     Base, Borders, Choices, ClassChoice, Cones, Method, OwnConeOptions, PipelineOptions, Relaxation,
 };

@@ -2,12 +2,13 @@
 #![allow(dead_code, reason = "every test binary uses another part")]
 
 use crate::theorems;
-use conemap::landmark_fit::{Finding, Repair, landmark_fit};
+use conemap::landmark_fit::{Finding, Repair};
 use conemap::landmarks::{LandmarkId, Landmarks};
 use conemap::layout::LandmarkDistances;
 use conemap::mesh::coarsening::Level;
 use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::Silent;
+use conemap::pipeline::landmark_doubts;
 use glam::DVec3;
 
 /// Two coarse meshes with landmarks.
@@ -31,9 +32,7 @@ impl Case {
     }
 
     pub fn findings(&self, landmarks: &Landmarks) -> Vec<Finding> {
-        let meshes = [&self.source, &self.target];
-        let distances = LandmarkDistances::new(meshes, landmarks, &mut Silent).expect("nobody stops");
-        landmark_fit(meshes, landmarks, &distances, &mut Silent).expect("nobody stops")
+        landmark_doubts([&self.source, &self.target], landmarks, &mut Silent).expect("nobody stops")
     }
 }
 

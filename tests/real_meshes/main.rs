@@ -21,6 +21,8 @@ mod common;
 mod cutting;
 #[path = "../common/distance_bounds.rs"]
 mod distance_bounds;
+#[path = "../common/ends.rs"]
+mod ends;
 #[path = "../common/fit.rs"]
 mod fit;
 #[path = "../common/other_triangles.rs"]
