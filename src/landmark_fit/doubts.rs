@@ -9,6 +9,7 @@ use crate::landmarks::{LandmarkId, Landmarks};
 use crate::layout::LandmarkDistances;
 use crate::mesh::SurfaceMesh;
 use crate::monitor::{Cancelled, Monitor, Portion, Step};
+use std::ops::RangeInclusive;
 use typed_index_collections::TiSlice;
 
 /// Least number of landmarks with which a set may be called mirrored. Chosen by hand.
@@ -31,12 +32,14 @@ pub struct LandmarkFit {
     pub findings: Vec<Finding>,
     /// Exchanges of two targets, each a [`Finding::Swapped`], that are favoured or hardly opposed, the most favoured first: those of the findings and
     /// others. Among few landmarks most swapped pairs are found here alone, and some of the findings are wrong: maps with and without an
-    /// exchange tell. None where the set is mirrored, or has more than forty pairs.
+    /// exchange tell. None where the set is mirrored, or has fewer than six or more than
+    /// forty pairs.
     pub favoured: Vec<Finding>,
 }
 
-/// Landmarks among which exchanges are favoured that are not clear, at most: of larger sets nearly all exchanges are clear. Chosen by hand.
-const MOST_UNCLEAR: usize = 40;
+/// Numbers of landmarks among which exchanges are favoured that are not clear: of larger sets nearly all exchanges are clear, smaller ones were not
+/// measured.
+const UNCLEAR: RangeInclusive<usize> = 6..=40;
 
 /// Checks whether landmark pairs can belong to a map of low distortion.
 ///
@@ -64,9 +67,11 @@ pub fn landmark_fit(
     let as_given = mirrored(&fit.target_of);
     monitor.step(Step::default())?;
     let ways = Exchange::new(distances, &directions, 1.0);
-    let is_large = landmarks.len() > MOST_UNCLEAR;
-    let mut favoured =
-        if is_large { Vec::new() } else { ways.favoured(&fit, &mut Portion::new(monitor, 0.0, 0.0))? };
+    let mut favoured = if UNCLEAR.contains(&landmarks.len()) {
+        ways.favoured(&fit, &mut Portion::new(monitor, 0.0, 0.0))?
+    } else {
+        Vec::new()
+    };
     let mut findings = exchanges(&mut fit, &ways, &mut Portion::new(monitor, 0.0, 0.4))?;
     // One exchange among few landmarks can reverse most orders: the set is mirrored only where it is so after exchanges, too.
     let mirrored = as_given.filter(|_| mirrored(&fit.target_of).is_some());

@@ -59,6 +59,12 @@ pub fn landmark_doubts(
                 Decision::Exchange(exchange) => found = vec![exchange],
             }
         }
+        // What was exchanged before is not exchanged back.
+        let is_known =
+            |finding: &Finding| doubts.iter().any(|d| exchanged_pairs(d) == exchanged_pairs(finding));
+        if found.iter().any(is_known) {
+            break;
+        }
         found.iter().for_each(|finding| exchange(&mut mended, finding));
         doubts.extend(found);
     }
