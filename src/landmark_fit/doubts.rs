@@ -32,8 +32,8 @@ pub struct LandmarkFit {
     pub findings: Vec<Finding>,
     /// Exchanges of two targets, each a [`Finding::Swapped`], that are favoured or hardly opposed, the most favoured first: those of the findings and
     /// others. Among few landmarks most swapped pairs are found here alone, and some of the findings are wrong: maps with and without an
-    /// exchange tell. None where the set is mirrored, or has fewer than six or more than
-    /// forty pairs.
+    /// exchange tell. Of a set that is called mirrored, these are the exchanges
+    /// without a mirror. None of sets with fewer than six or more than forty pairs.
     pub favoured: Vec<Finding>,
 }
 
@@ -67,7 +67,7 @@ pub fn landmark_fit(
     let as_given = mirrored(&fit.target_of);
     monitor.step(Step::default())?;
     let ways = Exchange::new(distances, &directions, 1.0);
-    let mut favoured = if UNCLEAR.contains(&landmarks.len()) {
+    let favoured = if UNCLEAR.contains(&landmarks.len()) {
         ways.favoured(&fit, &mut Portion::new(monitor, 0.0, 0.0))?
     } else {
         Vec::new()
@@ -77,7 +77,6 @@ pub fn landmark_fit(
     let mirrored = as_given.filter(|_| mirrored(&fit.target_of).is_some());
     if let Some(agreement) = mirrored {
         fit = Fit::new(landmarks, distances);
-        favoured.clear();
         findings = vec![Finding::Mirrored { agreement }];
         let ways = Exchange::new(distances, &directions, -1.0);
         findings.extend(exchanges(&mut fit, &ways, &mut Portion::new(monitor, 0.4, 0.8))?);

@@ -6,6 +6,7 @@ use crate::landmarks::{LandmarkId, Landmarks};
 use crate::layout::LandmarkDistances;
 use crate::math::scalar::min;
 use crate::mesh::SurfaceMesh;
+use crate::mesh::mirror::mirrored;
 use crate::monitor::{Cancelled, Monitor, Portion, unless_stopped};
 
 /// An exchange of two targets that distances and orders favour, but not clearly, is taken where the mean log density of a brief map with it is
@@ -43,22 +44,15 @@ pub fn landmark_doubts(
         let measuring = &mut Portion::new(monitor, share(0.0), share(0.2));
         let distances = LandmarkDistances::new(meshes, &mended, measuring)?;
         let comparing = &mut Portion::new(monitor, share(0.2), share(0.5));
-        let LandmarkFit { findings, favoured } = landmark_fit(meshes, &mended, &distances, comparing)?;
+        let fit = landmark_fit(meshes, &mended, &distances, comparing)?;
         let deciding = &mut Portion::new(monitor, share(0.5), share(1.0));
-        // A misplaced target, or a mirrored mesh, spoils the map with every exchange and without.
-        if findings.iter().any(|finding| exchanged_pairs(finding).is_none()) || deciding.wants_result() {
-            doubts.extend(findings);
-            break;
-        }
-        let mut found = findings;
-        if found.is_empty() || landmarks.len() <= FEW {
-            match decided(meshes, &mended, [&found, &favoured], deciding)? {
-                Decision::NoMap if found.is_empty() => break,
-                Decision::NoMap => {}
-                Decision::AsGiven => break,
-                Decision::Exchange(exchange) => found = vec![exchange],
+        let found = match judged(meshes, &mended, fit, deciding)? {
+            Judged::Exchanges(found) => found,
+            Judged::Last(findings) => {
+                doubts.extend(findings);
+                break;
             }
-        }
+        };
         // What was exchanged before is not exchanged back.
         let is_known =
             |finding: &Finding| doubts.iter().any(|d| exchanged_pairs(d) == exchanged_pairs(finding));
@@ -69,6 +63,44 @@ pub fn landmark_doubts(
         doubts.extend(found);
     }
     Ok(doubts)
+}
+
+/// What is found in one round.
+enum Judged {
+    /// Exchanges, at least one; after them there may be others.
+    Exchanges(Vec<Finding>),
+    /// Findings, or none, after which nothing more is looked for.
+    Last(Vec<Finding>),
+}
+
+/// What distances and orders find, as far as maps do not say otherwise.
+fn judged(
+    meshes: [&SurfaceMesh; 2],
+    landmarks: &Landmarks,
+    LandmarkFit { findings, favoured }: LandmarkFit,
+    monitor: &mut dyn Monitor,
+) -> Result<Judged, Cancelled> {
+    let is_few = landmarks.len() <= FEW;
+    if monitor.wants_result() {
+        return Ok(Judged::Last(findings));
+    }
+    if is_few && matches!(findings[..], [Finding::Mirrored { .. }, ..]) {
+        // One exchange among two or three pairs of partners reverses most orders.
+        let exchange = in_place_of_a_mirror(meshes, landmarks, &favoured, monitor)?;
+        return Ok(exchange.map_or(Judged::Last(findings), |exchange| Judged::Exchanges(vec![exchange])));
+    }
+    // A misplaced target spoils the map with every exchange and without.
+    if findings.iter().any(|finding| exchanged_pairs(finding).is_none()) {
+        return Ok(Judged::Last(findings));
+    }
+    if !is_few && !findings.is_empty() {
+        return Ok(Judged::Exchanges(findings));
+    }
+    Ok(match decided(meshes, landmarks, [&findings, &favoured], monitor)? {
+        Decision::Exchange(exchange) => Judged::Exchanges(vec![exchange]),
+        Decision::AsGiven => Judged::Last(Vec::new()),
+        Decision::NoMap => Judged::Last(findings),
+    })
 }
 
 /// The pairs of an exchange.
@@ -139,6 +171,27 @@ fn share(exchange: &Finding) -> f64 {
         Finding::Swapped { agreement, .. } if *agreement > 0.0 => LESS_OPPOSED,
         _ => LESS,
     }
+}
+
+/// The exchange of a set that is called mirrored which fits far better than the set as given does, on the target and on its mirror image.
+fn in_place_of_a_mirror(
+    meshes: [&SurfaceMesh; 2],
+    landmarks: &Landmarks,
+    favoured: &[Finding],
+    monitor: &mut dyn Monitor,
+) -> Result<Option<Finding>, Cancelled> {
+    let deciding = &mut Portion::new(monitor, 0.0, 0.8);
+    let Decision::Exchange(found) = decided(meshes, landmarks, [&[], favoured], deciding)? else {
+        return Ok(None);
+    };
+    let Ok(image) = mirrored(meshes[1]) else { return Ok(None) };
+    let mut mended = landmarks.clone();
+    exchange(&mut mended, &found);
+    let options = BriefOptions::default();
+    let with_it = mean_log(meshes, &mended, &options, &mut Portion::new(monitor, 0.8, 0.9))?;
+    let reflected = mean_log([meshes[0], &image], landmarks, &options, &mut Portion::new(monitor, 0.9, 1.0))?;
+    let fits = with_it.zip(reflected).is_some_and(|(with_it, reflected)| with_it < LESS * reflected);
+    Ok(fits.then_some(found))
 }
 
 /// The mean log density of the brief map with these landmarks; `None` where there is none.
