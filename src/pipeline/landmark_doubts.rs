@@ -97,7 +97,7 @@ fn judged(
         return Ok(Judged::Exchanges(findings));
     }
     Ok(match decided(meshes, landmarks, [&findings, &favoured], monitor)? {
-        Decision::Exchange(exchange) => Judged::Exchanges(vec![exchange]),
+        Decision::Exchange { exchange, .. } => Judged::Exchanges(vec![exchange]),
         Decision::AsGiven => Judged::Last(Vec::new()),
         Decision::NoMap => Judged::Last(findings),
     })
@@ -124,7 +124,7 @@ enum Decision {
     /// No map is clearly better than that without an exchange.
     AsGiven,
     /// The map with this exchange is the best.
-    Exchange(Finding),
+    Exchange { exchange: Finding, mean_log: f64, options: BriefOptions },
 }
 
 /// Compares the map as given with those with one exchange: a clear one, whose map has to be better, or a favoured one, whose map has to be better
@@ -157,7 +157,8 @@ fn decided(
             if let Some(mean_log) = mean_log(&mended, k + 1, monitor)?
                 && mean_log < min(best.0, share * as_given)
             {
-                best = (mean_log, Decision::Exchange(*finding));
+                let options = options.clone();
+                best = (mean_log, Decision::Exchange { exchange: *finding, mean_log, options });
             }
         }
         return Ok(best.1);
@@ -181,17 +182,12 @@ fn in_place_of_a_mirror(
     monitor: &mut dyn Monitor,
 ) -> Result<Option<Finding>, Cancelled> {
     let deciding = &mut Portion::new(monitor, 0.0, 0.8);
-    let Decision::Exchange(found) = decided(meshes, landmarks, [&[], favoured], deciding)? else {
-        return Ok(None);
-    };
+    let decision = decided(meshes, landmarks, [&[], favoured], deciding)?;
+    let Decision::Exchange { exchange, mean_log: with_it, options } = decision else { return Ok(None) };
     let Ok(image) = mirrored(meshes[1]) else { return Ok(None) };
-    let mut mended = landmarks.clone();
-    exchange(&mut mended, &found);
-    let options = BriefOptions::default();
-    let with_it = mean_log(meshes, &mended, &options, &mut Portion::new(monitor, 0.8, 0.9))?;
-    let reflected = mean_log([meshes[0], &image], landmarks, &options, &mut Portion::new(monitor, 0.9, 1.0))?;
-    let fits = with_it.zip(reflected).is_some_and(|(with_it, reflected)| with_it < LESS * reflected);
-    Ok(fits.then_some(found))
+    let reflecting = &mut Portion::new(monitor, 0.8, 1.0);
+    let reflected = mean_log([meshes[0], &image], landmarks, &options, reflecting)?;
+    Ok(reflected.is_some_and(|reflected| with_it < LESS * reflected).then_some(exchange))
 }
 
 /// The mean log density of the brief map with these landmarks; `None` where there is none.
