@@ -21,7 +21,7 @@ use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 
 /// The numbers of landmarks that are tried, besides all of them.
-pub const COUNTS: [usize; 4] = [6, 8, 12, 16];
+pub const COUNTS: [usize; 6] = [4, 5, 6, 8, 12, 16];
 /// The largest distance by which landmarks are moved, in units of the root of the area.
 const MOVED: f64 = 0.03;
 /// The number of folds that bend a mesh.

@@ -6,6 +6,8 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a survey prints its tables")]
 #![allow(clippy::expect_used, reason = "without its data a survey ends")]
 
+#[path = "../../tests/common/bodies/mod.rs"]
+mod bodies;
 #[path = "../../tests/common/clicked.rs"]
 mod clicked;
 #[path = "../../tests/common/mod.rs"]
@@ -43,6 +45,7 @@ mod holes;
 mod hostile;
 mod job_files;
 mod matched;
+mod made;
 mod memory;
 mod morph;
 mod orders;
@@ -139,6 +142,11 @@ const SURVEYS: &[Survey] = &[
         about: "files with faults, after the repairs that are offered, onto a partner or a remeshed, bent copy; --pairs NAME,...",
         run: repaired::files,
     },
+    Survey {
+        name: "bodies",
+        about: "writes bodies of many kinds, made by the program, into the folder --data, from which the tables of pairs read; --seed S",
+        run: made::write,
+    },
     Survey { name: "demos", about: "each demo with its landmarks; --pairs NAME,...", run: pairs::demos },
     Survey {
         name: "cones",
@@ -228,7 +236,7 @@ const SURVEYS: &[Survey] = &[
 ];
 
 /// The tables that need no data folder, since they are of meshes that the project makes itself.
-const NEED_NO_DATA: [&str; 5] = ["cones", "demos", "soak", "torture", "torture-case"];
+const NEED_NO_DATA: [&str; 6] = ["bodies", "cones", "demos", "soak", "torture", "torture-case"];
 
 fn main() {
     let arguments = Arguments::read();

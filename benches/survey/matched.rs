@@ -8,6 +8,7 @@
 
 use crate::arguments::Arguments;
 use crate::common;
+use crate::fit_faults::partners;
 use crate::shrec07;
 use conemap::geodesic::distances;
 use conemap::landmark_matching::{
@@ -38,6 +39,8 @@ struct Known {
     name: String,
     meshes: [SurfaceMesh; 2],
     places: [Vec<DVec3>; 2],
+    /// The landmarks that are left and right partners; none where these are not known.
+    partners: Vec<[usize; 2]>,
     truth: GroundTruth<'static>,
 }
 
@@ -165,7 +168,9 @@ impl Change {
             None => GroundTruth::Unknown,
         };
         let places = [place(&pair.source, 0), place(&pair.target, 1)];
-        let mut known = Known { name: name.to_owned(), meshes: [pair.source, pair.target], places, truth };
+        let partners = partners(&pair);
+        let meshes = [pair.source, pair.target];
+        let mut known = Known { name: name.to_owned(), meshes, places, partners, truth };
         let moved = |mesh: &SurfaceMesh, to: &mut dyn FnMut(DVec3) -> DVec3| {
             mesh.with_positions(mesh.positions().iter().map(|&p| to(p)).collect())
         };
@@ -404,9 +409,7 @@ fn measured(known: &Known, target: &SurfaceMesh, images: &[DVec3]) -> [Fit; 2] {
     let fields: Vec<_> = goals.iter().map(field).collect();
     let root = target.area().sqrt();
     let mut partner: Vec<usize> = (0..n).collect();
-    if shrec07::is_of(&known.name) {
-        shrec07::PARTNERS.iter().for_each(|&[a, b]| partner.swap(a, b));
-    }
+    known.partners.iter().for_each(|&[a, b]| partner.swap(a, b));
     let fit = |partner: &dyn Fn(usize) -> usize| {
         let mut fit = Fit { error: 0.0, wrong: Vec::new() };
         for (k, image) in images.iter().enumerate() {

@@ -9,6 +9,8 @@ use glam::{DVec2, DVec3};
 
 /// The distance by which a part counts beyond the reach of its blend, in units of the blend.
 const SPARE: f64 = 0.1;
+/// The distance beyond that, where no other is asked for.
+const REACH: f64 = 0.02;
 /// The size of the boxes that list the parts which matter in them, in units of the longest extent of the body.
 const BOX: f64 = 1.0 / 48.0;
 /// The function's value far outside.
@@ -145,17 +147,24 @@ pub(super) struct Part {
     blend: f64,
     /// The length of the edges wanted on the part.
     edge: f64,
+    /// The distance by which it counts beyond its blend.
+    reach: f64,
 }
 
 impl Part {
     /// A part that is blended with those before it over a distance.
     pub fn join(solids: Vec<Solid>, blend: f64, edge: f64) -> Self {
-        Self { solids, without: Vec::new(), operation: Operation::Join, blend, edge }
+        Self { solids, without: Vec::new(), operation: Operation::Join, blend, edge, reach: REACH }
     }
 
     /// A part that is taken away from those before it, rounded over a distance.
     pub fn cut(solids: Vec<Solid>, blend: f64, edge: f64) -> Self {
         Self { operation: Operation::Cut, ..Self::join(solids, blend, edge) }
+    }
+
+    /// The part that counts as far as a distance beyond its blend.
+    pub fn reaching(self, reach: f64) -> Self {
+        Self { reach, ..self }
     }
 
     /// The part without a solid, rounded over a distance.
@@ -166,7 +175,7 @@ impl Part {
 
     /// The distance by which the box of a solid is widened; beyond the widened box the solid does not count.
     fn margin(&self) -> f64 {
-        (1.0 + SPARE) * self.blend + 0.02
+        (1.0 + SPARE) * self.blend + self.reach
     }
 
     /// The part's value at a place, from the least value of its solids and the solids that are taken away from it.

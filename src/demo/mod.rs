@@ -15,6 +15,7 @@ mod hand;
 mod hoofed;
 mod human;
 mod implicit;
+mod limbs;
 mod marching;
 mod pairs;
 mod polygonise;
@@ -26,4 +27,5 @@ mod skin;
 mod tube;
 
 pub use catalogue::{DemoInfo, list};
+pub use limbs::{Joint, skin_of_limbs};
 pub use pairs::{Demo, build, true_map};

@@ -17,6 +17,8 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 const BLOCK: usize = 4;
 /// The distance of a block's middle from the surface, in units of its half diagonal, beyond which the block is left out.
 const CAUTION: f64 = 1.3;
+/// The distance from the surface, in units of the cells' size, at which parts have to be felt, or blocks that they touch are left out.
+pub(super) const FELT: f64 = 4.0;
 /// The number of smoothings in each round of collapses, splits and flips.
 const SMOOTHINGS: [usize; 3] = [1, 1, 3];
 

@@ -6,6 +6,8 @@ use glam::{DVec2, DVec3};
 
 /// The approximate length of the straight pieces from node to node, in units of the tube's radius there.
 const PIECE: f64 = 0.10;
+/// The length of a direction, in units of that it was made of, below which it is rounding.
+const ROUNDING: f64 = 1e-6;
 
 /// A section of a tube.
 #[derive(Clone, Copy, Debug)]
@@ -43,8 +45,13 @@ pub(super) fn tube(nodes: &[Node]) -> Vec<Solid> {
 fn piece(a: Node, b: Node) -> Solid {
     let axis = (b.centre - a.centre).normalize();
     let across = a.across + b.across;
-    let across =
-        (across - axis * across.dot(axis)).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
+    let perpendicular = across - axis * across.dot(axis);
+    // Of a width along the tube nothing is left but rounding.
+    let across = if perpendicular.length() > ROUNDING {
+        perpendicular.normalize()
+    } else {
+        axis.any_orthonormal_vector()
+    };
     let sizes = [a, b].map(|node| DVec2::new(node.width, node.height));
     Solid::Section(Section::new([a.centre, b.centre], sizes, across))
 }
@@ -89,6 +96,18 @@ mod tests {
         for (direction, reach) in [(DVec3::Y, 0.15), (-DVec3::Y, 0.15), (DVec3::Z, 0.2), (-DVec3::Z, 0.2)] {
             let value = body.value(nodes[1].centre + direction * reach);
             assert!(value.abs() < 0.004, "{direction}: {value}");
+        }
+    }
+
+    #[test]
+    fn a_tube_along_the_direction_of_its_width_is_round() {
+        // Along the width to the last bit, and but for rounding.
+        for along in [DVec3::Z, DVec3::new(1e-17, -3e-17, 1.0).normalize()] {
+            let nodes = [0.0, 0.3, 1.0].map(|t| Node::round(t * along, 0.1));
+            let body = Body::new(vec![Part::join(tube(&nodes), 0.05, 0.03)]);
+            for (at, value) in [([0.3, 0.0, 0.5], 0.2), ([0.0, -0.2, 0.4], 0.1), ([0.0, 0.0, 1.15], 0.05)] {
+                assert!((body.value(at.into()) - value).abs() < 0.004, "{at:?}");
+            }
         }
     }
 }

@@ -33,13 +33,12 @@ pub struct LandmarkFit {
     /// Exchanges of two targets, each a [`Finding::Swapped`], that are favoured or hardly opposed, the most favoured first: those of the findings and
     /// others. Among few landmarks most swapped pairs are found here alone, and some of the findings are wrong: maps with and without an
     /// exchange tell. Of a set that is called mirrored, these are the exchanges
-    /// without a mirror. None of sets with fewer than six or more than forty pairs.
+    /// without a mirror. None of sets with fewer than four or more than forty pairs.
     pub favoured: Vec<Finding>,
 }
 
-/// Numbers of landmarks among which exchanges are favoured that are not clear: of larger sets nearly all exchanges are clear, smaller ones were not
-/// measured.
-const UNCLEAR: RangeInclusive<usize> = 6..=40;
+/// Numbers of landmarks among which exchanges are favoured that are not clear: of larger sets nearly all exchanges are clear.
+const UNCLEAR: RangeInclusive<usize> = 4..=40;
 
 /// Checks whether landmark pairs can belong to a map of low distortion.
 ///
