@@ -20,11 +20,13 @@ pub fn write(arguments: &Arguments) {
         let made = [0, 1, 2].map(|k| bodies::body(&kind, number(k), EDGES[k]));
         let path = |k: usize| format!("bodies/{kind}{k}.off");
         for (k, body) in made.iter().enumerate() {
-            std::fs::write(folder.join(path(k)), MeshFormat::Off.write(&body.mesh)).expect("a file can be written");
+            std::fs::write(folder.join(path(k)), MeshFormat::Off.write(&body.mesh))
+                .expect("a file can be written");
         }
         for [a, b] in [[0, 1], [0, 2], [1, 2]] {
             let (labels, pairs) = made[a].common_ends(&made[b]);
-            let file = serde_json::json!({ "source": path(a), "target": path(b), "pairs": pairs, "labels": labels });
+            let file =
+                serde_json::json!({ "source": path(a), "target": path(b), "pairs": pairs, "labels": labels });
             let name = folder.join(format!("pairs/{kind}{a}-{kind}{b}.json"));
             std::fs::write(name, file.to_string()).expect("a file can be written");
         }

@@ -35,7 +35,8 @@ pub fn skin_of_limbs(limbs: &[Vec<Joint>], blend: f64, edge: f64) -> SurfaceMesh
     let part = |limb: &Vec<Joint>| {
         let nodes: Vec<Node> = limb.iter().map(|joint| Node::round(joint.place, joint.radius)).collect();
         let least = limb.iter().map(|joint| joint.radius).fold(f64::INFINITY, min);
-        Part::join(tube(&nodes), min(blend, LEAST_BLEND * least), min(edge, EDGE * least)).reaching(FELT * cell)
+        Part::join(tube(&nodes), min(blend, LEAST_BLEND * least), min(edge, EDGE * least))
+            .reaching(FELT * cell)
     };
     let body = Body::new(limbs.iter().map(part).collect());
     skin(&body, &Cells { size: cell, offset: DVec3::ZERO, coarseness: 1.0 })

@@ -13,6 +13,7 @@ use super::likeness::uncrossed;
 use super::moves::moves;
 use super::options::MatchOptions;
 use super::parting::difference;
+use super::rings::turned;
 use super::search::{Assignment, Tables, assignments};
 use super::shape::{Body, Shape};
 use super::sharpening::sharpen;
@@ -61,7 +62,11 @@ const LOOKED: f64 = 0.15;
 /// Progress once the candidates have been judged.
 const JUDGED: f64 = 0.6;
 /// Progress once small changes of the best candidate have been judged.
-const IMPROVED: f64 = 0.9;
+const IMPROVED: f64 = 0.85;
+/// Progress once the best candidate has been turned about its ends.
+const TURNED: f64 = 0.9;
+/// Times that a better candidate is turned on: an octopus has four arms on either side. Chosen by hand.
+const MOST_TURNS: usize = 4;
 /// Progress once the target's mirror image has been looked at.
 const MIRRORED: f64 = 0.95;
 
@@ -90,7 +95,11 @@ pub fn match_landmarks(
     let mut search = Search { source: input.source, shapes, options, found: Vec::new(), judged: 0 };
     search.first_look(&tables, &mut Portion::new(monitor, LOOKED, JUDGED))?;
     search.improve(&tables, &mut Portion::new(monitor, JUDGED, IMPROVED))?;
-    let mirrored = search.onto_mirror_image(&mut Portion::new(monitor, IMPROVED, MIRRORED))?;
+    // Small tips, which the changes have found partners for, tell between like limbs.
+    if search.turn(&tables, &mut Portion::new(monitor, IMPROVED, TURNED))? {
+        search.improve(&tables, &mut Portion::new(monitor, TURNED, TURNED))?;
+    }
+    let mirrored = search.onto_mirror_image(&mut Portion::new(monitor, TURNED, MIRRORED))?;
     let mut candidates = search.found;
     sharpen(input, &mut candidates, &mut Portion::new(monitor, MIRRORED, 1.0))?;
     if let Some((best, others)) = candidates.split_first_mut() {
@@ -202,6 +211,29 @@ impl Search<'_> {
             best = best.into_iter().chain(found).min_by(|a, b| a.score.total_cmp(&b.score));
         }
         Ok(best)
+    }
+
+    /// Judges the best turned about an end, and goes on from each that is better, at most [`MOST_TURNS`] times; returns whether one was
+    /// better.
+    fn turn(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
+        let mut turns = false;
+        for k in 0..MOST_TURNS {
+            let Some(best) = self.found.first().map(|best| best.assignment.clone()) else { break };
+            let share = |k: usize| k as f64 / MOST_TURNS as f64;
+            let watched = &mut Portion::new(monitor, share(k), share(k + 1));
+            let mut better = false;
+            for change in turned(tables, &best) {
+                let is_known = self.found.iter().any(|known| known.assignment.pairs == change.pairs);
+                if !is_known && !watched.wants_result() {
+                    better |= self.judge(&change, watched)?;
+                }
+            }
+            turns |= better;
+            if !better {
+                break;
+            }
+        }
+        Ok(turns)
     }
 
     /// Judges small changes of the best, at most `options.changes`, and goes on from each that is better.

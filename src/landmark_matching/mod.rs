@@ -19,6 +19,7 @@ mod parting;
 mod persistence;
 mod reflection;
 mod relief;
+mod rings;
 mod roles;
 mod search;
 mod shape;

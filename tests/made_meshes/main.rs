@@ -1,6 +1,8 @@
 //! The tests on meshes that the project makes itself: its demos, those remeshed, bent or made rough, and generated ones.
 #![allow(clippy::unwrap_used, reason = "a failing helper is a failing test")]
 
+#[path = "../common/bodies/mod.rs"]
+mod bodies;
 #[path = "../common/classes.rs"]
 mod classes;
 #[cfg(feature = "cli")]
@@ -55,6 +57,7 @@ mod glb_look;
 mod handles;
 mod holes;
 mod job;
+mod kinds;
 mod landmark_fit;
 mod landmark_matching;
 mod layout;

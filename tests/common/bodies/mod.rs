@@ -85,13 +85,16 @@ pub fn names() -> Vec<String> {
 
 /// A body of a kind, with edges of about this length: the pattern itself, which is symmetric, for `build` 0, and another one for each other
 /// number.
-pub fn body(kind: &str, build: u64, edge: f64) -> MadeBody {
-    let kind = &kinds()[kind];
+pub fn body(name: &str, build: u64, edge: f64) -> MadeBody {
+    let kind = &kinds()[name];
     let drawn = |attempt: u64| {
         let shares = if build == 0 { Shares::of_pattern() } else { Shares::new(ATTEMPTS * build + attempt) };
         body_of(&posed(kind, shares), edge)
     };
-    (0..ATTEMPTS).map(drawn).find(|body| body.mesh.euler_characteristic() == 2).expect("a body without a handle")
+    (0..ATTEMPTS)
+        .map(drawn)
+        .find(|body| body.mesh.euler_characteristic() == 2)
+        .unwrap_or_else(|| panic!("{name} {build}: every body has a handle"))
 }
 
 /// A body of limbs, with the names of those whose ends are landmarks.
@@ -174,8 +177,13 @@ fn posed(kind: &Kind, mut shares: Shares) -> Vec<(Option<String>, Vec<Joint>)> {
             } else {
                 let base = limb.on.as_ref().map(|on| &frames[on.as_str()]);
                 let root = |p: DVec3| base.map_or(extents * p, |base| base.to + base.turn * (p - base.from));
-                let (posed, turn) =
-                    bent(&joints, root(joints[0].place), base.map(|base| base.turn), (size, kind.bend), &mut shares);
+                let (posed, turn) = bent(
+                    &joints,
+                    root(joints[0].place),
+                    base.map(|base| base.turn),
+                    (size, kind.bend),
+                    &mut shares,
+                );
                 let last = |joints: &[Joint]| joints[joints.len() - 1].place;
                 frames.insert(&limb.name, Frame { from: last(&joints), to: last(&posed), turn });
                 posed
