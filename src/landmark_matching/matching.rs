@@ -10,7 +10,7 @@ use super::heads::with_twins;
 use super::input::MatchInput;
 use super::judge::{Measures, judge};
 use super::likeness::uncrossed;
-use super::moves::moves;
+use super::moves::{exchanged, moves};
 use super::options::MatchOptions;
 use super::parting::difference;
 use super::rings::turned;
@@ -65,8 +65,8 @@ const JUDGED: f64 = 0.6;
 const IMPROVED: f64 = 0.85;
 /// Progress once the best candidate has been turned about its ends.
 const TURNED: f64 = 0.9;
-/// Times that a better candidate is turned on: an octopus has four arms on either side. Chosen by hand.
-const MOST_TURNS: usize = 4;
+/// Times that a search goes on from a better candidate: an octopus has four arms on either side. Chosen by hand.
+const MOST_TIMES: usize = 4;
 /// Progress once the target's mirror image has been looked at.
 const MIRRORED: f64 = 0.95;
 
@@ -96,7 +96,9 @@ pub fn match_landmarks(
     search.first_look(&tables, &mut Portion::new(monitor, LOOKED, JUDGED))?;
     search.improve(&tables, &mut Portion::new(monitor, JUDGED, IMPROVED))?;
     // Small tips, which the changes have found partners for, tell between like limbs.
-    if search.turn(&tables, &mut Portion::new(monitor, IMPROVED, TURNED))? {
+    let half = 0.5 * (IMPROVED + TURNED);
+    let turns = search.go_on(&tables, turned, &mut Portion::new(monitor, IMPROVED, half))?;
+    if search.go_on(&tables, exchanged, &mut Portion::new(monitor, half, TURNED))? || turns {
         search.improve(&tables, &mut Portion::new(monitor, TURNED, TURNED))?;
     }
     let mirrored = search.onto_mirror_image(&mut Portion::new(monitor, TURNED, MIRRORED))?;
@@ -213,27 +215,29 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// Judges the best turned about an end, and goes on from each that is better, at most [`MOST_TURNS`] times; returns whether one was
-    /// better.
-    fn turn(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
-        let mut turns = false;
-        for k in 0..MOST_TURNS {
+    /// Judges certain changes of the best, and goes on from each that is better, at most [`MOST_TIMES`] times; returns whether one was better.
+    fn go_on(
+        &mut self,
+        tables: &Tables<'_>,
+        changes: fn(&Tables<'_>, &Assignment) -> Vec<Assignment>,
+        monitor: &mut dyn Monitor,
+    ) -> Result<bool, Cancelled> {
+        for k in 0..MOST_TIMES {
             let Some(best) = self.found.first().map(|best| best.assignment.clone()) else { break };
-            let share = |k: usize| k as f64 / MOST_TURNS as f64;
+            let share = |k: usize| k as f64 / MOST_TIMES as f64;
             let watched = &mut Portion::new(monitor, share(k), share(k + 1));
             let mut better = false;
-            for change in turned(tables, &best) {
+            for change in changes(tables, &best) {
                 let is_known = self.found.iter().any(|known| known.assignment.pairs == change.pairs);
                 if !is_known && !watched.wants_result() {
                     better |= self.judge(&change, watched)?;
                 }
             }
-            turns |= better;
             if !better {
-                break;
+                return Ok(k > 0);
             }
         }
-        Ok(turns)
+        Ok(true)
     }
 
     /// Judges small changes of the best, at most `options.changes`, and goes on from each that is better.

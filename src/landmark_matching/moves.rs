@@ -15,6 +15,30 @@ const FITS: f64 = 0.25;
 /// With at most this many pairs a further one is tried: the map may wind either way round the body. Chosen by hand.
 const FEW: usize = 5;
 
+/// Exchanges that are judged, at most. Chosen by hand.
+const EXCHANGES: usize = 3;
+
+/// The assignment `from` with the partners of two near tips exchanged, as those of left and right ears; the cheapest ones.
+pub(super) fn exchanged(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
+    let given = tables.shapes[0].given;
+    let near = |pairs: [&[usize; 2]; 2]| {
+        MeshSide::BOTH.iter().all(|&s| tables.shapes[s].distance(pairs.map(|pair| pair[s])) < NEAR)
+    };
+    let mut found = Vec::new();
+    for k in given..from.pairs.len() {
+        for l in given..k {
+            if near([&from.pairs[k], &from.pairs[l]]) {
+                let mut pairs = from.pairs.clone();
+                (pairs[k][1], pairs[l][1]) = (pairs[l][1], pairs[k][1]);
+                found.push(Assignment { between: from.between, ..tables.assignment(&pairs) });
+            }
+        }
+    }
+    found.sort_by(|a, b| a.full_cost().total_cmp(&b.full_cost()));
+    found.truncate(EXCHANGES);
+    found
+}
+
 /// Assignments that differ little from one, the cheapest first.
 pub(super) fn moves(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
     let given = tables.shapes[0].given;
