@@ -82,3 +82,28 @@ pub(super) fn moves(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
     }
     moves
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::options::MatchOptions;
+    use super::super::test_bodies::{ENDS, ball_with_ends, shape};
+    use super::*;
+    use glam::DVec3;
+
+    #[test]
+    fn partners_of_ears_are_exchanged_and_those_of_feet_are_not() {
+        let ears = [0.35, -0.35].map(|y| (DVec3::new(0.9, y, 0.8), 0.7));
+        let feet = ENDS[..4].iter().map(|&end| (end, 2.0));
+        let body = shape(&ball_with_ends(&feet.chain(ears).collect::<Vec<_>>(), 30.0));
+        let tables = Tables::new([&body; 2], &MatchOptions::default());
+        let own: Vec<[usize; 2]> = body.tips().map(|k| [k; 2]).collect();
+        assert_eq!(own.len(), 6);
+        let from = tables.assignment(&own);
+        let found = exchanged(&tables, &from);
+        let moved: Vec<usize> = found[0].pairs.iter().filter(|[s, t]| s != t).map(|pair| pair[0]).collect();
+        assert_eq!((found.len(), moved.len()), (1, 2));
+        for k in moved {
+            assert!(body.level.mesh.positions()[body.marks[k].vertex].z > 0.0);
+        }
+    }
+}
