@@ -49,6 +49,7 @@ mod tests {
     use super::super::shape::Shape;
     use super::super::test_bodies::{ball_with_ends, four_footed, shape};
     use super::*;
+    use crate::math::scalar::{atan2, cos, sin};
     use glam::DVec3;
     use std::f64::consts::TAU;
 
@@ -65,7 +66,7 @@ mod tests {
         // Six arms all round, and a head above them.
         let arm = |k: usize| {
             let angle = TAU * k as f64 / 6.0;
-            (DVec3::new(angle.cos(), angle.sin(), -0.3), 2.0)
+            (DVec3::new(cos(angle), sin(angle), -0.3), 2.0)
         };
         let ends: Vec<(DVec3, f64)> = (0..6).map(arm).chain([(DVec3::Z, 1.0)]).collect();
         let body = shape(&ball_with_ends(&ends, 30.0));
@@ -74,7 +75,7 @@ mod tests {
         assert_eq!((own[0].len(), turned.len()), (7, 2));
         let place = |k: usize| {
             let p = body.level.mesh.positions()[body.marks[k].vertex];
-            (p.z < 0.0).then(|| p.y.atan2(p.x))
+            (p.z < 0.0).then(|| atan2(p.y, p.x))
         };
         let mut steps = Vec::new();
         for pairs in turned {

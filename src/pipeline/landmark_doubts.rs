@@ -123,8 +123,8 @@ enum Decision {
     NoMap,
     /// No map is clearly better than that without an exchange.
     AsGiven,
-    /// The map with this exchange is the best.
-    Exchange { exchange: Finding, mean_log: f64, options: BriefOptions },
+    /// The map with this exchange is the best; its mean log density, on levels with so many vertices.
+    Exchange { exchange: Finding, mean_log: f64, vertices: usize },
 }
 
 /// Compares the map as given with those with one exchange: a clear one, whose map has to be better, or a favoured one, whose map has to be better
@@ -144,10 +144,9 @@ fn decided(
     }
     let maps = (tried.len() + 1) as f64;
     for vertices in VERTICES {
-        let options = BriefOptions { vertices, ..BriefOptions::default() };
         let mean_log = |landmarks: &Landmarks, k: usize, monitor: &mut dyn Monitor| {
             let part = &mut Portion::new(monitor, k as f64 / maps, (k + 1) as f64 / maps);
-            mean_log(meshes, landmarks, &options, part)
+            mean_log(meshes, landmarks, vertices, part)
         };
         let Some(as_given) = mean_log(landmarks, 0, monitor)? else { continue };
         let mut best = (as_given, Decision::AsGiven);
@@ -157,8 +156,7 @@ fn decided(
             if let Some(mean_log) = mean_log(&mended, k + 1, monitor)?
                 && mean_log < min(best.0, share * as_given)
             {
-                let options = options.clone();
-                best = (mean_log, Decision::Exchange { exchange: *finding, mean_log, options });
+                best = (mean_log, Decision::Exchange { exchange: *finding, mean_log, vertices });
             }
         }
         return Ok(best.1);
@@ -183,22 +181,23 @@ fn in_place_of_a_mirror(
 ) -> Result<Option<Finding>, Cancelled> {
     let deciding = &mut Portion::new(monitor, 0.0, 0.8);
     let decision = decided(meshes, landmarks, [&[], favoured], deciding)?;
-    let Decision::Exchange { exchange, mean_log: with_it, options } = decision else { return Ok(None) };
+    let Decision::Exchange { exchange, mean_log: with_it, vertices } = decision else { return Ok(None) };
     let Ok(image) = mirrored(meshes[1]) else { return Ok(None) };
     let reflecting = &mut Portion::new(monitor, 0.8, 1.0);
-    let reflected = mean_log([meshes[0], &image], landmarks, &options, reflecting)?;
+    let reflected = mean_log([meshes[0], &image], landmarks, vertices, reflecting)?;
     Ok(reflected.is_some_and(|reflected| with_it < LESS * reflected).then_some(exchange))
 }
 
-/// The mean log density of the brief map with these landmarks; `None` where there is none.
+/// The mean log density of the brief map with these landmarks on levels with so many vertices; `None` where there is none.
 fn mean_log(
     meshes: [&SurfaceMesh; 2],
     landmarks: &Landmarks,
-    options: &BriefOptions,
+    vertices: usize,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<f64>, Cancelled> {
+    let options = BriefOptions { vertices, ..BriefOptions::default() };
     let sides = [&landmarks.source.raw[..], &landmarks.target.raw];
-    brief_map(meshes, sides, options, monitor, |_, mut map, monitor| {
+    brief_map(meshes, sides, &options, monitor, |_, mut map, monitor| {
         Ok(unless_stopped(map.relax(&options.relaxation, monitor))?.map(|_| map.mean_log))
     })
 }
