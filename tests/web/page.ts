@@ -36,6 +36,9 @@ export async function open(page: Page, hash = ''): Promise<void> {
   await expectSaid(page, 'data-ready', /^true$/, 120_000);
 }
 
+/** A demo whose run goes on for longer than a picture takes, makes several previews, and tells several energies also where the machine is busy. */
+export const LONG_RUN = '#demo=wolf-cow';
+
 /** Opens the page with a demo, ready to be mapped. */
 export async function openDemo(page: Page, hash = '#demo=horse-cat'): Promise<void> {
   await open(page, hash);

@@ -2,7 +2,7 @@
 import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import { keepPreviews, SETTLED } from './canvas.ts';
-import { finished, openDemo, openStep } from './page.ts';
+import { finished, LONG_RUN, openDemo, openStep } from './page.ts';
 
 async function source(page: Page): Promise<Buffer> {
   const box = await page.locator('#view-source').boundingBox();
@@ -12,9 +12,6 @@ async function source(page: Page): Promise<Buffer> {
   // The caption, which mentions the coarse map, is left out.
   return page.screenshot({ clip: { x: box.x, y: box.y + 48, width: box.width, height: box.height - 120 } });
 }
-
-/** A demo whose run goes on for longer than a picture takes, and makes several previews also where the machine is busy. */
-const LONG_RUN = '#demo=wolf-cow';
 
 test('the coarse map is seen while the run goes on, and is gone with it', async ({ page }) => {
   await openDemo(page, LONG_RUN);
