@@ -38,7 +38,8 @@ pub struct MatchOptions {
     /// A candidate whose map scores worse than the best one's by this much after a short relaxation, both without the fit of patches, is not
     /// relaxed any further.
     pub promising: f64,
-    /// Small changes of the best candidate that are judged, at most.
+    /// Small changes of the best candidate that are judged, at most; as many again where it is turned about an end, or near partners are
+    /// exchanged.
     pub changes: usize,
     /// Candidates that are judged on the target's mirror image.
     pub mirrored: usize,

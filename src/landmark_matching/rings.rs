@@ -12,8 +12,7 @@ const COSTS_MORE: f64 = 0.1;
 const MOST: usize = 2;
 
 /// The assignment `from`, but that the main tips around one of its ends, in the order in which shortest paths lead to them, go each to the
-/// partner of the next, or each to that of the last; the cheapest first;
-/// none where all of these cost far more.
+/// partner of the next, or each to that of the one before; the cheapest first. None where all of these cost far more.
 pub(super) fn turned(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
     let given = tables.shapes[0].given;
     let is_main = |k: &usize| {
@@ -53,7 +52,7 @@ mod tests {
     use glam::DVec3;
     use std::f64::consts::TAU;
 
-    /// Where the tips of a body go that is matched with itself, by the numbers of their places in a list: as they are, and turned.
+    /// The pairs of a body that is matched with itself: as they are, and turned.
     fn goals(shape: &Shape, tables: &Tables<'_>) -> [Vec<Vec<[usize; 2]>>; 2] {
         let own: Vec<[usize; 2]> = shape.main(&MatchOptions::default()).iter().map(|&k| [k; 2]).collect();
         let from = tables.assignment(&own);

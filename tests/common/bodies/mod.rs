@@ -44,7 +44,7 @@ struct Limb {
     still: bool,
     /// The limb on whose last joint it sits; the trunk otherwise.
     on: Option<String>,
-    /// Whether its end is a landmark: otherwise those are that are no parts of the trunk.
+    /// Whether its end is a landmark; where this is not said, the ends of all limbs are but those of the trunk.
     end: Option<bool>,
     /// Places and radii.
     joints: Vec<[f64; 4]>,
