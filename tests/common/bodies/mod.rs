@@ -21,8 +21,11 @@ const EXTENTS: f64 = 0.065;
 const AT_ROOT: f64 = 0.6;
 /// The distance over which limbs are blended.
 const BLEND: f64 = 0.03;
-/// Bodies that are drawn until one has no handle: bent limbs may touch.
+/// Bodies that are drawn until one has no handle and no limb crosses another: bent ones may.
 const ATTEMPTS: u64 = 20;
+
+/// The share of the smaller radius by which the end of a limb enters another limb that it crosses.
+const CROSSING: f64 = 0.5;
 
 /// A kind of body.
 #[derive(Deserialize)]
@@ -89,12 +92,35 @@ pub fn body(name: &str, build: u64, edge: f64) -> MadeBody {
     let kind = &kinds()[name];
     let drawn = |attempt: u64| {
         let shares = if build == 0 { Shares::of_pattern() } else { Shares::new(ATTEMPTS * build + attempt) };
-        body_of(&posed(kind, shares), edge)
+        posed(kind, shares)
     };
     (0..ATTEMPTS)
         .map(drawn)
+        .filter(|limbs| ends_are_free(limbs))
+        .map(|limbs| body_of(&limbs, edge))
         .find(|body| body.mesh.euler_characteristic() == 2)
-        .unwrap_or_else(|| panic!("{name} {build}: every body has a handle"))
+        .unwrap_or_else(|| panic!("{name} {build}: in every body limbs touch"))
+}
+
+/// Whether the ends of limbs that are landmarks stand free: the outer halves of two limbs that cross are one limb to anybody who looks.
+fn ends_are_free(limbs: &[(Option<String>, Vec<Joint>)]) -> bool {
+    let outer: Vec<[Joint; 2]> = limbs.iter().filter_map(outer_half).collect();
+    let enters = |end: &Joint, [a, b]: &[Joint; 2]| {
+        let along = b.place - a.place;
+        let share = ((end.place - a.place).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        let (place, radius) = (a.place + share * along, a.radius + share * (b.radius - a.radius));
+        end.place.distance(place) < end.radius + radius - CROSSING * end.radius.min(radius)
+    };
+    (0..outer.len())
+        .all(|k| outer.iter().enumerate().all(|(l, other)| l == k || !enters(&outer[k][1], other)))
+}
+
+/// The outer half of a limb's last part; `None` where its end is no landmark.
+fn outer_half((name, joints): &(Option<String>, Vec<Joint>)) -> Option<[Joint; 2]> {
+    let [.., before, last] = joints[..] else { return None };
+    let middle =
+        Joint { place: 0.5 * (before.place + last.place), radius: 0.5 * (before.radius + last.radius) };
+    name.is_some().then_some([middle, last])
 }
 
 /// A body of limbs, with the names of those whose ends are landmarks.
