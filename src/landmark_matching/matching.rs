@@ -17,6 +17,7 @@ use super::rings::turned;
 use super::search::{Assignment, Tables, assignments};
 use super::shape::{Body, Shape};
 use super::sharpening::sharpen;
+use super::small_ends::{SmallEnds, are_fit, near_exchanges, with_exchange};
 use super::verdict::{Found, Verdict, verdict};
 use crate::landmarks::MeshSide;
 use crate::math::scalar::min;
@@ -67,8 +68,10 @@ const IMPROVED: f64 = 0.85;
 const TURNED: f64 = 0.9;
 /// Times that a search goes on from a better candidate: an octopus has four arms on either side. Chosen by hand.
 const MOST_TIMES: usize = 4;
+/// Progress once small ends have been looked at closer.
+const LOOKED_CLOSER: f64 = 0.94;
 /// Progress once the target's mirror image has been looked at.
-const MIRRORED: f64 = 0.95;
+const MIRRORED: f64 = 0.97;
 
 /// Finds landmark pairs of two bodies beside the given ones, with alternatives and a verdict.
 ///
@@ -101,7 +104,8 @@ pub fn match_landmarks(
     if search.go_on(&tables, exchanged, &mut Portion::new(monitor, half, TURNED))? || turns {
         search.improve(&tables, &mut Portion::new(monitor, TURNED, TURNED))?;
     }
-    let mirrored = search.onto_mirror_image(&mut Portion::new(monitor, TURNED, MIRRORED))?;
+    search.look_closer(&tables, &mut Portion::new(monitor, TURNED, LOOKED_CLOSER))?;
+    let mirrored = search.onto_mirror_image(&mut Portion::new(monitor, LOOKED_CLOSER, MIRRORED))?;
     let mut candidates = search.found;
     sharpen(input, &mut candidates, &mut Portion::new(monitor, MIRRORED, 1.0))?;
     if let Some((best, others)) = candidates.split_first_mut() {
@@ -238,6 +242,52 @@ impl Search<'_> {
             }
         }
         Ok(true)
+    }
+
+    /// Gives the best candidate the pairs of small ends that finer maps are for. Its score stays that of its coarse map, which is compared with
+    /// those of other candidates.
+    fn look_closer(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
+        let Some(best) = self.found.first() else { return Ok(()) };
+        let ends = SmallEnds::new(tables, &best.assignment, self.options);
+        let exchanges = near_exchanges(&self.found, self.options);
+        let most = ends.as_ref().map_or(1, SmallEnds::most_looks) + exchanges.len();
+        let finer = MatchOptions { brief: self.options.closer.clone(), ..self.options.clone() };
+        let mut looked = 0;
+        let mut look = |assignment: &Assignment| {
+            if monitor.wants_result() {
+                return Ok(None);
+            }
+            let share = |k: usize| k as f64 / most as f64;
+            let watched = &mut Portion::new(monitor, share(looked), share(looked + 1));
+            looked += 1;
+            candidate(self.shapes, assignment.clone(), f64::INFINITY, &finer, watched)
+        };
+        let mut closer = None;
+        if let Some(ends) = &ends
+            && let Some(plain) = look(&ends.plain)?
+        {
+            let mut with_one = Vec::with_capacity(ends.with_one.len());
+            for one in &ends.with_one {
+                with_one.extend(look(one)?);
+            }
+            closer = look(&ends.taken(tables, &plain, with_one))?.filter(|all| are_fit(&plain, all));
+        }
+        if closer.is_none() && !exchanges.is_empty() {
+            closer = look(&best.assignment)?;
+        }
+        let Some(mut closer) = closer else { return Ok(()) };
+        let of_near =
+            exchanges.into_iter().filter_map(|exchange| with_exchange(tables, &closer.assignment, exchange));
+        let of_greater = ends.iter().flat_map(|ends| ends.exchanged(tables, &closer.assignment));
+        for exchanged in of_near.chain(of_greater).collect::<Vec<_>>() {
+            closer = look(&exchanged)?.filter(|other| other.score < closer.score).unwrap_or(closer);
+        }
+        let is_new = |pair: &[usize; 2]| !best.assignment.pairs.contains(pair);
+        if closer.assignment.pairs.iter().any(is_new) {
+            let Candidate { pairs, picture, assignment, .. } = closer;
+            self.found[0] = Candidate { pairs, picture, assignment, ..best.clone() };
+        }
+        Ok(())
     }
 
     /// Judges small changes of the best, at most `options.changes`, and goes on from each that is better.

@@ -24,6 +24,7 @@ mod roles;
 mod search;
 mod shape;
 mod sharpening;
+mod small_ends;
 mod symmetry;
 #[cfg(test)]
 mod test_bodies;

@@ -10,7 +10,7 @@ use crate::landmarks::{LEAST_LANDMARKS, MeshSide};
 /// A tip may be replaced by one of the same body within this distance, in units of the root of the area. Chosen by hand.
 pub(super) const NEAR: f64 = 0.45;
 /// Small tips are paired where their mean misfit (log ratio of distances) is below this. Chosen by hand.
-const FITS: f64 = 0.25;
+pub(super) const FITS: f64 = 0.25;
 
 /// With at most this many pairs a further one is tried: the map may wind either way round the body. Chosen by hand.
 const FEW: usize = 5;

@@ -41,10 +41,14 @@ pub struct MatchOptions {
     /// Small changes of the best candidate that are judged, at most; as many again where it is turned about an end, or near partners are
     /// exchanged.
     pub changes: usize,
+    /// Pairs of small ends that are judged by finer maps, at most.
+    pub small_ends: usize,
     /// Candidates that are judged on the target's mirror image.
     pub mirrored: usize,
     /// Options of the coarse maps by which candidates are judged.
     pub brief: BriefOptions,
+    /// Options of the finer maps by which pairs of small ends are judged.
+    pub closer: BriefOptions,
     /// Options of the patches that are fitted to measure a map.
     pub patches: MeanFitOptions,
     /// Limits of the verdict.
@@ -76,9 +80,11 @@ impl Default for MatchOptions {
             // stay more than 0.1 behind the best, which is more than the margin of the verdict.
             promising: 0.25,
             changes: 6,
+            small_ends: 6,
             // Of 20 mirrored hands the first was the right one, by 0.08 and more already after the short relaxation.
             mirrored: 2,
             brief: BriefOptions::default(),
+            closer: BriefOptions::closer(),
             // Larger patches than those that draw a map between poses, since a coarse map is 2 to 4 % off. Radii of 0.08 to 0.35, noise of 2e-3 to
             // 8e-3 and spacings of 0.03 to 0.08 rank about as many candidates rightly; a third of the points costs a third.
             patches: MeanFitOptions {

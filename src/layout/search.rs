@@ -13,6 +13,8 @@ use crate::monitor::{Cancelled, Monitor, Portion, Step};
 pub struct SearchOptions {
     /// Layouts from different orders of drawing that are judged, at most.
     pub candidates: usize,
+    /// Such layouts that are judged until one has a map, where that is more than `candidates`.
+    pub until_mapped: usize,
     /// Twists of one drawing that a descent to straighter ones tries, at most, the most promising first.
     pub descent_patience: usize,
     /// A layout with at most this detour ([`super::LayoutReport::detour`]) and at most `clear_mean_log` is clear: no other order
@@ -38,6 +40,7 @@ impl Default for SearchOptions {
             // The counts bound the time of a run, since each layout costs a coarse map. All of them were chosen by hand;
             // `cargo xtask survey classes` compares the class that is found with all its twists.
             candidates: 8,
+            until_mapped: 1,
             descent_patience: MOST_DRAWINGS,
             clear_detour: 0.1,
             clear_mean_log: 0.14,
@@ -203,7 +206,7 @@ struct Search<'a, 'j> {
 impl Search<'_, '_> {
     fn orders(&mut self, candidates: &mut Candidates<'_>) -> Result<(), LayoutError> {
         let (mut without_gain, mut unmapped) = (0, 0);
-        while self.report.judged.len() < self.options.candidates && without_gain < self.options.patience {
+        while self.report.judged.len() < self.most_orders() && without_gain < self.options.patience {
             if self.best.is_some() && !candidates.is_promising() {
                 break;
             }
@@ -225,6 +228,12 @@ impl Search<'_, '_> {
             }
         }
         Ok(())
+    }
+
+    /// The number of layouts from different orders of drawing that are judged, at most.
+    fn most_orders(&self) -> usize {
+        let most = self.options.candidates;
+        if self.best.is_none() { most.max(self.options.until_mapped) } else { most }
     }
 
     fn twists(&mut self, candidates: &mut Candidates<'_>) -> Result<(), LayoutError> {

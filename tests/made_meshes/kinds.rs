@@ -1,6 +1,7 @@
 //! Tests on bodies of many kinds: their skins, and the partners that their limbs find without a landmark.
 
 use crate::bodies::{MadeBody, body, names};
+use conemap::geodesic::distances;
 use conemap::landmark_matching::{LandmarkMatch, MatchInput, MatchOptions, Verdict, match_landmarks};
 use conemap::mesh::VertexId;
 use conemap::monitor::Silent;
@@ -31,9 +32,31 @@ fn patterns_of_all_kinds_are_symmetric_and_each_end_has_its_place() {
     }
 }
 
+/// The distance along the surface between the ends of these names.
+fn between(MadeBody { mesh, ends }: &MadeBody, names: [&str; 2]) -> f64 {
+    let [a, b] = names.map(|name| ends.iter().find(|end| end.0 == name).unwrap().1);
+    distances(mesh, &[a])[b]
+}
+
+#[test]
+fn ears_and_horns_of_a_giraffe_are_never_one_limb() {
+    let pattern = body("giraffe", 0, EDGE);
+    for build in 1..=8 {
+        let body = body("giraffe", build, EDGE);
+        for side in ["left", "right"] {
+            let names = [format!("{side} ear"), format!("{side} horn")];
+            let names = names.each_ref().map(String::as_str);
+            assert!(between(&body, names) > 0.4 * between(&pattern, names), "{build} {side}");
+        }
+    }
+}
+
 /// Two other bodies of a kind, matched, and the names of the ends that the best candidate pairs.
 fn matched(kind: &str, builds: [u64; 2]) -> (LandmarkMatch, Vec<[String; 2]>) {
-    let bodies = builds.map(|build| body(kind, build, EDGE));
+    matched_bodies(builds.map(|build| body(kind, build, EDGE)))
+}
+
+fn matched_bodies(bodies: [MadeBody; 2]) -> (LandmarkMatch, Vec<[String; 2]>) {
     let [source, target] = [&bodies[0].mesh, &bodies[1].mesh];
     let found =
         match_landmarks(MatchInput::new(source, target), &MatchOptions::default(), &mut Silent).unwrap();
@@ -64,6 +87,26 @@ fn limbs_of_a_bird_find_those_of_another_one() {
 fn arms_of_an_octopus_find_their_own_among_eight_that_are_alike() {
     let (_, ends) = matched("octopus", [3, 4]);
     all_go_to_their_own(&ends, 9);
+}
+
+fn are_paired(ends: &[[String; 2]], names: [&str; 2]) {
+    assert!(names.iter().all(|name| ends.contains(&[(*name).to_owned(), (*name).to_owned()])), "{ends:?}");
+}
+
+/// On coarse maps each ear goes to the other one.
+#[test]
+fn ears_of_a_kangaroo_find_their_own() {
+    let (_, ends) = matched_bodies([body("kangaroo", 7, 0.023), body("kangaroo", 8, 0.02)]);
+    all_go_to_their_own(&ends, 7);
+    are_paired(&ends, ["left ear", "right ear"]);
+}
+
+/// On coarse maps horns without a partner score better.
+#[test]
+fn horns_of_a_dragon_find_their_own() {
+    let (_, ends) = matched("dragon", [0, 8]);
+    all_go_to_their_own(&ends, 10);
+    are_paired(&ends, ["left horn", "right horn"]);
 }
 
 #[test]
