@@ -1,5 +1,5 @@
 /** Wires the store, the views, the panels and the worker together. */
-import { openDropped } from './app/dropped.ts';
+import { Dropped } from './app/dropped.ts';
 import { Finder } from './app/find.ts';
 import { findUnasked } from './app/find-unasked.ts';
 import { First } from './app/first.ts';
@@ -66,7 +66,8 @@ const across: Mirror = (side, point) => views.across(side, point);
 /** Reloads the page into its newer build, where there is one. */
 let reload = (): void => undefined;
 const keeper = new Keeper(store, browserWith(reader));
-const first = new First(store, links, reader);
+const dropped = new Dropped(store, { links, reader, maps });
+const first = new First(store, links, reader, dropped);
 
 const turnedViews: TurnedViews = {
   whenTurned: (heard) => views.whenTurned(heard),
@@ -76,7 +77,7 @@ const turnedViews: TurnedViews = {
 const actions: Actions = {
   dispatch: store.dispatch,
   openFiles: (files, side) => {
-    void openDropped(store, { links, reader, maps }, files, side);
+    void dropped.open(files, side);
   },
   acceptLink: links.accept,
   cancelLink: () => {
@@ -307,6 +308,7 @@ async function start(): Promise<void> {
   if (!(await keeper.resume(found))) {
     await first.show(demos);
   }
+  dropped.begin();
   // Once the page can be used it fetches the core. The core lists its quickest demo last.
   const quickest = demos.at(-1);
   if (quickest !== undefined) {

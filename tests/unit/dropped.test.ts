@@ -1,6 +1,6 @@
 /** Files that are dropped one after the other, faster than they are read. */
 import { beforeAll, beforeEach, expect, test, vi } from 'vitest';
-import { openDropped } from '../../www/app/dropped.ts';
+import { Dropped } from '../../www/app/dropped.ts';
 import { leaveTask } from '../../www/app/task.ts';
 import { Store } from '../../www/store/store.ts';
 import { buildDemo } from '../../www/wasm/page.js';
@@ -35,13 +35,22 @@ beforeEach(() => {
   store.dispatch({ kind: 'ready', demos: [] });
 });
 
-/** Drops files one by one, without waiting for any. */
-async function drop(...files: readonly (readonly [File, 0 | 1 | null])[]): Promise<void> {
+/** The opener of the files of the page. */
+function opener(): Dropped {
   const unasked = (): never => {
     throw new Error('nobody asks for this');
   };
-  const places = { links: { waits: false, cancel: unasked, take: unasked }, reader: READER, maps: { open: unasked, openOfProject: unasked } };
-  await Promise.all(files.map(([file, side]) => openDropped(store, places, [file], side)));
+  return new Dropped(store, {
+    links: { waits: false, cancel: unasked, take: unasked },
+    reader: READER,
+    maps: { open: unasked, openOfProject: unasked },
+  });
+}
+
+/** Drops files one by one, without waiting for any. */
+async function drop(...files: readonly (readonly [File, 0 | 1 | null])[]): Promise<void> {
+  const dropped = opener();
+  await Promise.all(files.map(([file, side]) => dropped.open([file], side)));
 }
 
 function names(): (string | undefined)[] {
@@ -99,8 +108,9 @@ test('what breaks off holds up no other', async () => {
   const spy = vi.spyOn(store, 'dispatch').mockImplementationOnce(() => {
     throw new Error('broken');
   });
-  const first = openDropped(store, places, [own.source], 0);
-  const second = openDropped(store, places, [own.target], 1);
+  const dropped = new Dropped(store, places);
+  const first = dropped.open([own.source], 0);
+  const second = dropped.open([own.target], 1);
   await expect(first).rejects.toThrow('broken');
   spy.mockRestore();
   await second;
@@ -114,4 +124,29 @@ test('something else that is begun meanwhile was wanted last', async () => {
   await dropped;
   expect(names()).toEqual([undefined, undefined]);
   store.dispatch({ kind: 'task-ended', task });
+});
+
+test('files that come before the page can open any wait for it to begin', async () => {
+  store = new Store();
+  const dropped = opener();
+  expect(dropped.areWaiting).toBe(false);
+  const early = [dropped.open([own.landmarks], null), dropped.open([own.target], 1)];
+  expect(dropped.areWaiting).toBe(true);
+  store.dispatch({ kind: 'ready', demos: [] });
+  // This one comes when the page can open files, but has not begun: it waits for the earlier ones.
+  const late = dropped.open([own.source], 0);
+  expect(store.state.job.kind).toBe('idle');
+  dropped.begin();
+  expect(dropped.areWaiting).toBe(false);
+  await Promise.all([...early, late]);
+  expect(names()).toEqual(['ball.obj', 'tetrahedron.obj']);
+  expect(store.state.pairs.length).toBeGreaterThan(3);
+  expect(store.state.error).toBeNull();
+});
+
+test('a page on which nothing waits begins without any file', async () => {
+  const dropped = opener();
+  dropped.begin();
+  await dropped.open([own.source], 0);
+  expect(names()).toEqual(['ball.obj', undefined]);
 });

@@ -97,13 +97,13 @@ test.describe('a visit as users have it', () => {
   });
 });
 
-/** Holds the core back until the returned function is called. */
-async function heldCore(page: Page): Promise<() => void> {
+/** Holds a file back until the returned function is called. */
+async function held(page: Page, file: RegExp): Promise<() => void> {
   let letThrough = (): void => undefined;
   const opened = new Promise<void>((resolve) => {
     letThrough = resolve;
   });
-  await page.route(CORE, async (route) => {
+  await page.route(file, async (route) => {
     await opened;
     await route.continue();
   });
@@ -122,7 +122,7 @@ test('a core that does not come is told, and fetched again by the next try', asy
 });
 
 test('a run that is asked for before the core is there begins when it comes', async ({ page }) => {
-  const letThrough = await heldCore(page);
+  const letThrough = await held(page, CORE);
   await openDemo(page);
   await page.locator('#run').click();
   await expect(page.locator('#cancel')).toBeVisible();
@@ -133,7 +133,7 @@ test('a run that is asked for before the core is there begins when it comes', as
 const SMALL = { name: 'small.obj', content: TETRAHEDRON };
 
 test('a mesh that is dropped before the core is there is read when it comes', async ({ page }) => {
-  const letThrough = await heldCore(page);
+  const letThrough = await held(page, CORE);
   await openDemo(page);
   await dropContents(page, [SMALL]);
   await expect(page.locator('#status')).toHaveText('Reading the files…');
@@ -151,4 +151,47 @@ test('a mesh that cannot be read for want of the core is told, and read by the n
   await dropContents(page, [SMALL]);
   await expect(page.locator('.caption').filter({ hasText: 'small' })).toHaveCount(1);
   await expect(page.locator('#error')).toBeHidden();
+});
+
+/** The module without which the page can neither show nor open anything. */
+const MODULE = /\/page_bg[^/]*\.wasm$/;
+
+/** Opens the page, drops files on it while it is loading, in this order, and waits until it can be used. */
+async function openWhileDropping(page: Page, hash: string, files: Parameters<typeof dropContents>[1]): Promise<void> {
+  const letThrough = await held(page, MODULE);
+  await page.goto(`/${hash}`);
+  await expect(page.locator('#status')).toHaveText('Loading…');
+  for (const file of files) {
+    await dropContents(page, [file]);
+  }
+  letThrough();
+  await expect(page.locator('body')).toHaveAttribute('data-ready', 'true', { timeout: 120_000 });
+}
+
+test('meshes that are dropped while the page is loading come in place of the first demo', async ({ page }) => {
+  await openWhileDropping(page, '', [SMALL, { ...SMALL, name: 'second.obj' }]);
+  await expect(page.locator('.caption').filter({ hasText: 'small' })).toHaveCount(1);
+  await expect(page.locator('.caption').filter({ hasText: 'second' })).toHaveCount(1);
+  await expect(page.locator('#error')).toBeHidden();
+});
+
+test('a mesh that is dropped while the page is loading comes onto the demo of the address', async ({ page }) => {
+  await openWhileDropping(page, '#demo=horse-cat', [SMALL]);
+  await expect(page.locator('.caption').filter({ hasText: 'small' })).toHaveCount(1);
+  await expect(page.locator('.caption').filter({ hasText: 'cat' })).toHaveCount(1);
+});
+
+test('a file that is dropped while the page is loading and cannot be read is told', async ({ page }) => {
+  await openWhileDropping(page, '', [{ name: 'broken.obj', content: 'v 0 0\n' }]);
+  await expect(page.locator('#error p')).toContainText('broken.obj');
+});
+
+test('a mesh that is dropped while the page is loading again comes onto the work that was there', async ({ page }) => {
+  await openDemo(page);
+  await dropContents(page, [SMALL]);
+  await expect(page.locator('.caption').filter({ hasText: 'small' })).toHaveCount(1);
+  await page.evaluate(() => dispatchEvent(new Event('pagehide')));
+  await openWhileDropping(page, '', [{ ...SMALL, name: 'second.obj' }]);
+  await expect(page.locator('.caption').filter({ hasText: 'second' })).toHaveCount(1);
+  await expect(page.locator('.caption').filter({ hasText: 'cat' })).toHaveCount(1);
 });

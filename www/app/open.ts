@@ -50,11 +50,7 @@ export interface Openers {
 
 /** Opens files; `side` is the view they were dropped on or chosen for. */
 export async function openFiles(store: Store, { reader, maps }: Openers, files: readonly File[], side: Side | null): Promise<void> {
-  const { ready, job } = store.state;
-  if (!ready) {
-    return;
-  }
-  if (job.kind === 'running') {
+  if (store.state.job.kind === 'running') {
     store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
     return;
   }
