@@ -3,7 +3,7 @@
 
 use crate::clicked::Random;
 use crate::common::Pair;
-use crate::ends::ends;
+use crate::ends::{ends, partners_among};
 use crate::fit::{COUNTS, Counts, Fit};
 use crate::shrec07;
 use conemap::landmark_fit::{Finding, Repair};
@@ -76,9 +76,7 @@ fn single(row: &str, landmarks: usize, fit: &Fit, partners: &[[usize; 2]], named
 /// The same meshes with few of the landmarks, mostly ends of limbs, and the partners among them.
 pub fn with_ends(fit: &Fit, partners: &[[usize; 2]], count: usize) -> (Fit, Vec<[usize; 2]>) {
     let chosen = ends(&fit.meshes[0], &fit.landmarks.source.raw, count);
-    let place = |k: usize| chosen.iter().position(|&c| c == k);
-    let partners = partners.iter().filter_map(|&[a, b]| Some([place(a)?, place(b)?])).collect();
-    (fit.only(&chosen), partners)
+    (fit.only(&chosen), partners_among(&chosen, partners))
 }
 
 /// Exchanges the targets of two and of three pairs of partners at once: these count as named where a swap that is found is one of them.

@@ -151,8 +151,7 @@ impl<'a> Exchange<'a> {
                 }
             }
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        found.truncate(TRIED);
+        let mut found = least(found, TRIED);
         if found.len() < 2 {
             return Ok(found.pop().map(|(_, _, finding)| finding));
         }
@@ -184,9 +183,7 @@ impl<'a> Exchange<'a> {
                 found.push((agreement, pairs, Finding::Swapped { pairs, agreement, misfit }));
             }
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        found.truncate(MOST_FAVOURED);
-        Ok(found.into_iter().map(|(_, _, finding)| finding).collect())
+        Ok(least(found, MOST_FAVOURED).into_iter().map(|(_, _, finding)| finding).collect())
     }
 
     /// The sum of the doubts (agreements below [`DOUBTFUL`]) that are left when two targets are exchanged.
@@ -197,6 +194,16 @@ impl<'a> Exchange<'a> {
             |pair| self.opinion(&exchanged, pair, DOUBTFUL).map_or(0.0, |o| max(0.0, DOUBTFUL - o.agreement));
         pairs(target_of.len()).map(doubt).sum()
     }
+}
+
+/// The exchanges of least agreement, that one first; `most` of them.
+fn least(
+    mut found: Vec<(f64, [LandmarkId; 2], Finding)>,
+    most: usize,
+) -> Vec<(f64, [LandmarkId; 2], Finding)> {
+    found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    found.truncate(most);
+    found
 }
 
 /// The agreement below which two targets are taken to be exchanged, by the number of landmarks: fewer err more often.

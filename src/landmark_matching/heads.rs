@@ -48,7 +48,7 @@ pub(super) fn with_twins(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignme
         let is_new = |pair: &[usize; 2]| group.iter().any(|new| new[0] == pair[0] || new[1] == pair[1]);
         let kept = from.pairs.iter().enumerate().filter(|(k, pair)| *k < given || !is_new(pair));
         let pairs: Vec<[usize; 2]> = kept.map(|(_, pair)| *pair).chain(group.iter().copied()).collect();
-        Assignment { between: from.between, ..tables.assignment(&pairs) }
+        tables.changed(from, &pairs)
     };
     found.into_iter().take(MOST).map(with).collect()
 }

@@ -98,9 +98,8 @@ pub(super) fn uncrossed(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignmen
             }
         }
     }
-    let assignment =
-        |pairs: Vec<[usize; 2]>| Assignment { between: from.between, ..tables.assignment(&pairs) };
-    [with, without].into_iter().filter(|pairs| pairs.len() >= LEAST_LANDMARKS).map(assignment).collect()
+    let has_enough = |pairs: &Vec<[usize; 2]>| pairs.len() >= LEAST_LANDMARKS;
+    [with, without].into_iter().filter(has_enough).map(|pairs| tables.changed(from, &pairs)).collect()
 }
 
 #[cfg(test)]

@@ -270,7 +270,10 @@ impl Search<'_> {
             for one in &ends.with_one {
                 with_one.extend(look(one)?);
             }
-            closer = look(&ends.taken(tables, &plain, with_one))?.filter(|all| are_fit(&plain, all));
+            let taken = ends.taken(tables, &plain, &with_one);
+            let known = with_one.into_iter().find(|one| one.assignment.pairs == taken.pairs);
+            let all = if known.is_some() { known } else { look(&taken)? };
+            closer = all.filter(|all| are_fit(&plain, all));
         }
         if closer.is_none() && !exchanges.is_empty() {
             closer = look(&best.assignment)?;

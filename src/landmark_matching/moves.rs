@@ -10,7 +10,7 @@ use crate::landmarks::{LEAST_LANDMARKS, MeshSide};
 /// A tip may be replaced by one of the same body within this distance, in units of the root of the area. Chosen by hand.
 pub(super) const NEAR: f64 = 0.45;
 /// Small tips are paired where their mean misfit (log ratio of distances) is below this. Chosen by hand.
-pub(super) const FITS: f64 = 0.25;
+const FITS: f64 = 0.25;
 
 /// With at most this many pairs a further one is tried: the map may wind either way round the body. Chosen by hand.
 const FEW: usize = 5;
@@ -21,16 +21,13 @@ const EXCHANGES: usize = 3;
 /// The assignment `from` with the partners of two near tips exchanged, as those of left and right ears; the cheapest ones.
 pub(super) fn exchanged(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
     let given = tables.shapes[0].given;
-    let near = |pairs: [&[usize; 2]; 2]| {
-        MeshSide::BOTH.iter().all(|&s| tables.shapes[s].distance(pairs.map(|pair| pair[s])) < NEAR)
-    };
     let mut found = Vec::new();
     for k in given..from.pairs.len() {
         for l in given..k {
-            if near([&from.pairs[k], &from.pairs[l]]) {
+            if are_near(tables, [from.pairs[k], from.pairs[l]]) {
                 let mut pairs = from.pairs.clone();
                 (pairs[k][1], pairs[l][1]) = (pairs[l][1], pairs[k][1]);
-                found.push(Assignment { between: from.between, ..tables.assignment(&pairs) });
+                found.push(tables.changed(from, &pairs));
             }
         }
     }
@@ -39,21 +36,45 @@ pub(super) fn exchanged(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignmen
     found
 }
 
+/// Whether two pairs are near each other on both bodies.
+pub(super) fn are_near(tables: &Tables<'_>, pairs: [[usize; 2]; 2]) -> bool {
+    MeshSide::BOTH.iter().all(|&side| tables.shapes[side].distance(pairs.map(|pair| pair[side])) < NEAR)
+}
+
+/// The pairs of marks without a partner in `pairs` that fit it, each with its misfit.
+pub(super) fn fitting(tables: &Tables<'_>, pairs: &[[usize; 2]]) -> Vec<(f64, [usize; 2])> {
+    let mut fitting = Vec::new();
+    for s in free(tables, pairs, MeshSide::Source) {
+        for t in free(tables, pairs, MeshSide::Target) {
+            let misfit = tables.mean_misfit([s, t], pairs);
+            if misfit < FITS {
+                fitting.push((misfit, [s, t]));
+            }
+        }
+    }
+    fitting
+}
+
+/// The marks of a body without a partner in `pairs`, which has the given ones.
+fn free(tables: &Tables<'_>, pairs: &[[usize; 2]], side: MeshSide) -> Vec<usize> {
+    let shape = tables.shapes[side];
+    (shape.given..shape.marks.len()).filter(|k| pairs.iter().all(|pair| pair[side] != *k)).collect()
+}
+
 /// Assignments that differ little from one, the cheapest first.
 pub(super) fn moves(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
     let given = tables.shapes[0].given;
     let pairs = &from.pairs;
-    let free = |side: MeshSide| {
-        let shape = tables.shapes[side];
-        (shape.given..shape.marks.len()).filter(move |&k| pairs.iter().all(|pair| pair[side] != k))
-    };
+    let free = MeshSide::BOTH.map(|side| free(tables, pairs, side));
     let mut changed: Vec<Vec<[usize; 2]>> = Vec::new();
     for k in given..pairs.len() {
         for side in MeshSide::BOTH {
-            for mark in free(side).filter(|&m| tables.shapes[side].distance([pairs[k][side], m]) < NEAR) {
-                let mut next = pairs.clone();
-                next[k][side] = mark;
-                changed.push(next);
+            for &mark in &free[side] {
+                if tables.shapes[side].distance([pairs[k][side], mark]) < NEAR {
+                    let mut next = pairs.clone();
+                    next[k][side] = mark;
+                    changed.push(next);
+                }
             }
         }
         if pairs.len() > LEAST_LANDMARKS {
@@ -62,13 +83,8 @@ pub(super) fn moves(tables: &Tables<'_>, from: &Assignment) -> Vec<Assignment> {
             changed.push(next);
         }
     }
-    for s in free(MeshSide::Source) {
-        for t in free(MeshSide::Target) {
-            if tables.mean_misfit([s, t], pairs) < FITS {
-                changed.push(pairs.iter().copied().chain([[s, t]]).collect());
-            }
-        }
-    }
+    let further = fitting(tables, pairs).into_iter().map(|(_, pair)| [&pairs[..], &[pair]].concat());
+    changed.extend(further);
     let mut moves: Vec<Assignment> = changed
         .iter()
         .filter(|pairs| pairs.len() >= LEAST_LANDMARKS)

@@ -129,6 +129,11 @@ impl<'a> Tables<'a> {
         }
         partial.finished(self)
     }
+
+    /// The assignment with these pairs in place of those of another one, whose place between it keeps.
+    pub(super) fn changed(&self, from: &Assignment, pairs: &[[usize; 2]]) -> Assignment {
+        Assignment { between: from.between, ..self.assignment(pairs) }
+    }
 }
 
 /// A partial assignment.

@@ -6,7 +6,7 @@
 //! finer maps decide about exchanged partners of the same region.
 
 use super::candidate::Candidate;
-use super::moves::{FITS, NEAR, exchanged};
+use super::moves::{NEAR, are_near, exchanged, fitting};
 use super::options::MatchOptions;
 use super::parting::Parting;
 use super::search::{Assignment, Tables};
@@ -52,11 +52,11 @@ impl SmallEnds {
             own.clear();
         }
         let rest = from.pairs.iter().filter(|pair| !own.contains(pair));
-        let plain = with(tables, from, &rest.copied().collect::<Vec<_>>());
-        let with_one: Vec<Assignment> = fitting(tables, &plain, from)
+        let plain = tables.changed(from, &rest.copied().collect::<Vec<_>>());
+        let with_one: Vec<Assignment> = fitting_small(tables, &plain, from)
             .into_iter()
             .take(options.small_ends)
-            .map(|pair| with(tables, from, &[&plain.pairs[..], &[pair]].concat()))
+            .map(|pair| tables.changed(from, &[&plain.pairs[..], &[pair]].concat()))
             .collect();
         let is_open = with_one.iter().any(|one| !own.contains(&last(one)));
         is_open.then_some(Self { plain, own, with_one })
@@ -80,12 +80,8 @@ impl SmallEnds {
 
     /// The assignment with all pairs of small ends that are worth it. `plain` and `with_one` are the candidates of the assignments of these
     /// names on finer maps. A pair that the assignment had is given up for better ones alone.
-    pub(super) fn taken(
-        &self,
-        tables: &Tables<'_>,
-        plain: &Candidate,
-        mut with_one: Vec<Candidate>,
-    ) -> Assignment {
+    pub(super) fn taken(&self, tables: &Tables<'_>, plain: &Candidate, with_one: &[Candidate]) -> Assignment {
+        let mut with_one: Vec<&Candidate> = with_one.iter().collect();
         with_one.sort_by(|a, b| a.score.total_cmp(&b.score));
         let mut taken: Vec<[usize; 2]> = Vec::new();
         for one in &with_one {
@@ -103,7 +99,7 @@ impl SmallEnds {
                 taken.push(pair);
             }
         }
-        with(tables, &self.plain, &[&self.plain.pairs[..], &taken].concat())
+        tables.changed(&self.plain, &[&self.plain.pairs[..], &taken].concat())
     }
 }
 
@@ -143,7 +139,7 @@ pub(super) fn with_exchange(
     for (old, new) in [([a, y], [a, x]), ([b, x], [b, y])] {
         *pairs.iter_mut().find(|pair| **pair == old)? = new;
     }
-    Some(with(tables, from, &pairs))
+    Some(tables.changed(from, &pairs))
 }
 
 /// Whether the finer map with small ends distorts no more than that without.
@@ -159,33 +155,15 @@ fn is_beside(shape: &Shape, tip: usize) -> bool {
 }
 
 /// The pairs of small ends without a partner that fit, near to a pair of `from`; the cheapest first.
-fn fitting(tables: &Tables<'_>, plain: &Assignment, from: &Assignment) -> Vec<[usize; 2]> {
-    let free = |side: MeshSide| {
-        let shape = tables.shapes[side];
-        let is_free = move |k: &usize| plain.pairs.iter().all(|pair| pair[side] != *k);
-        (shape.given..shape.marks.len()).filter(is_free).filter(|&k| is_beside(shape, k))
+fn fitting_small(tables: &Tables<'_>, plain: &Assignment, from: &Assignment) -> Vec<[usize; 2]> {
+    let is_wanted = |(_, pair): &(f64, [usize; 2])| {
+        let are_small = MeshSide::BOTH.iter().all(|&side| is_beside(tables.shapes[side], pair[side]));
+        are_small && from.pairs.iter().any(|&other| are_near(tables, [*pair, other]))
     };
-    let is_near = |pair: [usize; 2]| {
-        from.pairs.iter().any(|other| {
-            MeshSide::BOTH.iter().all(|&side| tables.shapes[side].distance([pair[side], other[side]]) < NEAR)
-        })
-    };
-    let mut found: Vec<(f64, [usize; 2])> = Vec::new();
-    for s in free(MeshSide::Source) {
-        for t in free(MeshSide::Target) {
-            let misfit = tables.mean_misfit([s, t], &plain.pairs);
-            if misfit < FITS && is_near([s, t]) {
-                found.push((misfit + tables.difference[s][t], [s, t]));
-            }
-        }
-    }
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut found: Vec<_> = fitting(tables, &plain.pairs).into_iter().filter(is_wanted).collect();
+    let cost = |&(misfit, [s, t]): &(f64, [usize; 2])| misfit + tables.difference[s][t];
+    found.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
     found.into_iter().map(|(_, pair)| pair).collect()
-}
-
-/// The assignment with these pairs, and the place between that another one has.
-fn with(tables: &Tables<'_>, from: &Assignment, pairs: &[[usize; 2]]) -> Assignment {
-    Assignment { between: from.between, ..tables.assignment(pairs) }
 }
 
 fn last(assignment: &Assignment) -> [usize; 2] {
@@ -249,7 +227,7 @@ mod tests {
                 ends.with_one.iter().map(one).collect()
             };
             let taken = |right: [f64; 2], wrong: [f64; 2]| {
-                let mut pairs = ends.taken(&tables, &plain, judged(right, wrong)).pairs;
+                let mut pairs = ends.taken(&tables, &plain, &judged(right, wrong)).pairs;
                 pairs.sort_unstable();
                 pairs
             };

@@ -72,12 +72,13 @@ impl<'a> Candidates<'a> {
     /// Measures the distances between the landmarks. Nothing is drawn yet.
     ///
     /// # Errors
-    /// [`LayoutError::Cancelled`]; [`LayoutError::TooMany`] where the distances would take too much memory.
+    /// [`LayoutError::Cancelled`]; [`LayoutError::TooFew`]; [`LayoutError::TooMany`] where the distances would take too much memory.
     pub fn new(
         meshes: [&'a SurfaceMesh; 2],
         landmarks: &'a Landmarks,
         monitor: &mut dyn Monitor,
     ) -> Result<Self, LayoutError> {
+        LayoutError::unless_enough(landmarks)?;
         let vertices = meshes[0].vertex_count().max(meshes[1].vertex_count());
         let most = MOST_DISTANCES / vertices.max(1);
         if landmarks.len() > most {

@@ -30,13 +30,14 @@ impl Default for LayoutOptions {
 /// Plans the base domain on both meshes at once and draws it.
 ///
 /// # Errors
-/// [`LayoutError`] when no order of drawing ends in a triangulation.
+/// [`LayoutError`] when no order of drawing ends in a triangulation, or there are too few landmarks.
 pub fn joint(
     meshes: [&SurfaceMesh; 2],
     landmarks: &Landmarks,
     options: &LayoutOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<BaseLayout, LayoutError> {
+    LayoutError::unless_enough(landmarks)?;
     let empty = Drawing::new(meshes[0], meshes[1], landmarks);
     let distances = empty.distances(monitor)?;
     let ground = Ground::new(&empty, &distances);

@@ -2,6 +2,7 @@
 
 use super::drawing_fault::DrawingFault;
 use super::patches::PatchFault;
+use crate::landmarks::{LEAST_LANDMARKS, Landmarks};
 use crate::monitor::{Cancelled, OrStop};
 
 /// Why no layout was found.
@@ -43,6 +44,12 @@ pub enum LayoutError {
         /// Landmarks whose paths wind most, 0-based, the worst first.
         near: Vec<usize>,
     },
+    /// Fewer landmarks than a base domain has vertices.
+    #[error("{landmarks} landmarks are too few: pick at least {LEAST_LANDMARKS}")]
+    TooFew {
+        /// Number of landmarks.
+        landmarks: usize,
+    },
     /// More landmarks than distances can be kept of.
     #[error("{landmarks} landmarks are too many: on these meshes at most {most} can be used, leave some out")]
     TooMany {
@@ -62,6 +69,14 @@ pub enum LayoutError {
     /// The paths do not bound discs.
     #[error("the patches are not valid: {0}")]
     Patches(#[from] PatchFault),
+}
+
+impl LayoutError {
+    /// Nothing where there are enough landmarks for a base domain, else [`LayoutError::TooFew`].
+    pub(super) fn unless_enough(landmarks: &Landmarks) -> Result<(), Self> {
+        let landmarks = landmarks.len();
+        if landmarks < LEAST_LANDMARKS { Err(Self::TooFew { landmarks }) } else { Ok(()) }
+    }
 }
 
 impl OrStop for LayoutError {

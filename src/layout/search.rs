@@ -292,7 +292,8 @@ impl Search<'_, '_> {
 
     /// The share of all layouts, 0 to 1, that is judged once `more` further ones are.
     fn share(&self, more: usize) -> f64 {
-        let most = self.options.candidates + self.options.twists;
+        let SearchOptions { candidates, until_mapped, twists, .. } = *self.options;
+        let most = candidates.max(until_mapped) + twists;
         (self.report.judged.len() + more) as f64 / most.max(1) as f64
     }
 

@@ -18,3 +18,9 @@ pub fn ends(mesh: &SurfaceMesh, landmarks: &[VertexId], count: usize) -> Vec<usi
     }
     chosen
 }
+
+/// The partners, as left and right ears, that both are among the chosen landmarks, by their places there.
+pub fn partners_among(chosen: &[usize], partners: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    let place = |k: usize| chosen.iter().position(|&c| c == k);
+    partners.iter().filter_map(|&[a, b]| Some([place(a)?, place(b)?])).collect()
+}

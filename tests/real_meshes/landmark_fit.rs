@@ -2,7 +2,7 @@
 
 use crate::common;
 use crate::data::{self, pair_names};
-use crate::ends::ends;
+use crate::ends::{ends, partners_among};
 use crate::fit::{self, Case, mirrored, only_the_mirror_image_raises_an_alarm, swaps};
 use crate::shrec07;
 use conemap::landmark_fit::{Finding, Repair};
@@ -68,8 +68,7 @@ fn feet_exchanged_among_few_ends_are_named_by_maps(data: &Path) {
                 Landmarks { source: of(&case.landmarks.source.raw), target: of(&case.landmarks.target.raw) };
             let findings = case.findings(&ends);
             assert!(findings.is_empty(), "{name}, {count}: {findings:?}");
-            let place = |k: usize| chosen.iter().position(|&c| c == k);
-            for [a, b] in shrec07::PARTNERS.iter().filter_map(|&[a, b]| Some([place(a)?, place(b)?])) {
+            for [a, b] in partners_among(&chosen, &shrec07::PARTNERS) {
                 let mut wrong = ends.clone();
                 wrong.target.raw.swap(a, b);
                 let swaps = swaps(&case.findings(&wrong));
