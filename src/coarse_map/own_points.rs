@@ -33,14 +33,18 @@ pub(super) struct OwnPair {
 
 /// The own points that a round may take.
 pub(super) struct PointChoice<'a> {
-    /// Number of points, at most.
+    /// Number of points, at most, but for further ones.
     pub count: usize,
+    /// Number of points, at most, with further ones.
+    pub most: usize,
+    /// Further points are at least this far from all others; the area is 1.
+    pub gap: f64,
     /// Whether a vertex of the source level may be taken.
     pub may: &'a dyn Fn(VertexId) -> bool,
 }
 
-/// Chooses points of the source, at most `choice.count`, far from the landmarks and from each other and not at those of the round before,
-/// with their images on the target.
+/// Chooses points of the source, far from the landmarks and from each other and not at those of the round before, with their images on the
+/// target.
 pub(super) fn pairs(
     full: &[LandmarkedMesh; 2],
     images: &LevelImages,
@@ -63,9 +67,14 @@ pub(super) fn pairs(
     // The vertices that the round before inserted around its own points are not in the mesh with the user's landmarks alone.
     let known = full[0].refined.mesh.vertex_count();
     mesh.vertices().filter(|&v| source.vertices[v].index() >= known).for_each(|v| free[v.index()] = false);
-    let spread = Spread { count: choice.count, least_distance: LEAST_DISTANCE };
     let may = |v: VertexId| free[v.index()] && (choice.may)(v);
-    let chosen = farthest_points(mesh, distances(mesh, &user), spread, may, monitor)?;
+    let first = Spread { count: choice.count, least_distance: LEAST_DISTANCE };
+    let mut chosen = farthest_points(mesh, distances(mesh, &user), first, may, monitor)?;
+    if choice.most > chosen.len() {
+        let from_all = distances(mesh, &[&user[..], &chosen[..]].concat());
+        let further = Spread { count: choice.most - chosen.len(), least_distance: choice.gap };
+        chosen.extend(farthest_points(mesh, from_all, further, may, monitor)?);
+    }
     let mut places: Vec<DVec3> =
         full[1].landmarks.iter().map(|&v| full[1].refined.mesh.positions()[v]).collect();
     let mut pairs = Vec::new();

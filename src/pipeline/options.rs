@@ -92,7 +92,7 @@ pub struct Choices {
     #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t))]
     pub class: ClassChoice,
     /// Points that are added as cones of the program's own where there are few landmarks, beside ends of limbs without a landmark; 0 for
-    /// none of both, the default number where it is not given.
+    /// none of both; where it is not given 20, and up to 40 on bodies of many long limbs.
     #[cfg_attr(feature = "cli", arg(long, value_name = "N"))]
     pub own_cones: Option<usize>,
     /// How holes that both meshes have are treated.
@@ -104,7 +104,7 @@ impl From<Choices> for PipelineOptions {
     fn from(choices: Choices) -> Self {
         let Choices { method, base, cones, class, own_cones, borders } = choices;
         let usual = OwnConeOptions::default();
-        let own_cones = OwnConeOptions { count: own_cones.unwrap_or(usual.count), ..usual };
+        let own_cones = own_cones.map_or(usual, |count| OwnConeOptions { count, most: count, ..usual });
         Self { method, base, cones, class, own_cones, borders, ..Self::default() }
     }
 }
