@@ -15,7 +15,8 @@ use super::limb_ends;
 use super::mesh_with_coarse::{self, MeshWithCoarse};
 use super::multilevel::{CoarseMap, LevelImages, solve_fine};
 use super::options::MultilevelOptions;
-use super::own_points::{OwnPair, PointChoice, pairs, with};
+pub use super::own_points::OwnPair;
+use super::own_points::{PointChoice, apart, pairs, with};
 use crate::layout::SearchOptions;
 use crate::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, unless_stopped};
@@ -271,6 +272,32 @@ pub fn add<'a>(
     }
 }
 
+/// Adds own landmarks in the same rounds, but begins with given pairs, as ends of limbs that a matching has found; `None` where there are none,
+/// or no map with them.
+///
+/// # Errors
+/// Cancellation only.
+pub fn add_at<'a>(
+    start: Start<'_>,
+    owners: Owners<'a>,
+    given: &[OwnPair],
+    multilevel: &MultilevelOptions,
+    own: &OwnConeOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Option<OwnCones<'a>>, Cancelled> {
+    let given = apart(start.full, given);
+    let mut adding =
+        Adding { start, multilevel, own, cells: owners.cells(), before: Vec::new(), is_one_body: None };
+    let Some(first) = adding.with_pairs(&given, adding.settled(own.search), monitor)? else {
+        return Ok(None);
+    };
+    monitor.preview(&first.map);
+    let mut seen = SeenMaps::new(start.full[0].refined.mesh.vertex_count());
+    seen.extend(first.map.images());
+    let best = adding.further_rounds(SoFar { seen, best: Some(first) }, monitor)?;
+    adding.on_finer_levels(best, monitor)
+}
+
 /// Rounds of own landmarks, one after the other.
 struct Adding<'s, 'a> {
     start: Start<'s>,
@@ -364,7 +391,17 @@ impl<'a> Adding<'_, 'a> {
         if self.start.is_one_body && self.least(&begun.best) >= HOPEFUL * self.start.map.mean_log {
             return Ok(None);
         }
-        match self.further_rounds(begun, monitor)? {
+        let best = self.further_rounds(begun, monitor)?;
+        self.on_finer_levels(best, monitor)
+    }
+
+    /// The best map after the rounds on finer levels, which are for poses of one body alone.
+    fn on_finer_levels(
+        &mut self,
+        best: Option<OwnCones<'a>>,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<OwnCones<'a>>, Cancelled> {
+        match best {
             Some(best) if best.map.is_of_poses() && self.is_one_body != Some(false) => {
                 Ok(Some(self.by_finer_levels(best, monitor)?))
             }
@@ -440,7 +477,8 @@ impl<'a> Adding<'_, 'a> {
     /// The last of the maps, on finer levels, whose own points were placed by the map of a finer level.
     ///
     /// On the coarse level a point's image is off by about a per cent of the root of the area, and a limb may be turned a little. On finer
-    /// levels patches of both bodies are registered, which turns it back; but there the own points are held, so that fresh ones are needed.
+    /// levels patches of both bodies are registered, which turns it back; but there the own points are held, so that fresh ones are needed. There
+    /// are no further ones in gaps: each that is held keeps its error.
     fn by_finer_levels(
         &mut self,
         best: OwnCones<'a>,
@@ -457,7 +495,7 @@ impl<'a> Adding<'_, 'a> {
         // Patches may tell that there are two bodies; their limbs are placed well enough.
         while last.map.is_of_poses() && self.may_go_on(0, monitor) {
             let Some(images) = last.map.images() else { break };
-            let points = self.own_points(&images, |_| true, monitor)?;
+            let points = self.own_points(&images, |_| true, self.own.count, monitor)?;
             let Some(next) = self.with_pairs(&points, self.settled(self.own.drawn_once()), monitor)? else {
                 break;
             };
@@ -538,19 +576,20 @@ impl<'a> Adding<'_, 'a> {
         search: &SearchOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
-        let points = self.own_points(images, may, monitor)?;
+        let points = self.own_points(images, may, self.own.most, monitor)?;
         self.with_pairs(&points, self.settled(*search), monitor)
     }
 
-    /// Fresh own points, of the vertices that `may` be taken, at the given images.
+    /// Fresh own points, of the vertices that `may` be taken, at the given images; at most `most` with those in gaps.
     fn own_points(
         &self,
         images: &LevelImages,
         may: impl Fn(VertexId) -> bool,
+        most: usize,
         monitor: &mut dyn Monitor,
     ) -> Result<Vec<OwnPair>, Cancelled> {
         let placing = &mut Portion::new(monitor, 0.0, 0.0);
-        let OwnConeOptions { count, most, gap, .. } = *self.own;
+        let OwnConeOptions { count, gap, .. } = *self.own;
         let choice = PointChoice { count, most, gap, may: &may };
         pairs(self.start.full, images, &self.before, choice, placing)
     }

@@ -24,7 +24,8 @@ const APART: f64 = 0.05;
 const SNAP: f64 = 0.15;
 
 /// A point of the program's own, to be a landmark.
-pub(super) struct OwnPair {
+#[derive(Clone, Copy, Debug)]
+pub struct OwnPair {
     /// A vertex of the source with the user's landmarks.
     pub source: VertexId,
     /// Its image on the target with the user's landmarks.
@@ -99,6 +100,24 @@ pub(super) fn pairs(
     Ok(pairs)
 }
 
+/// The pairs that lie apart from all landmarks and from each other on both meshes.
+pub(super) fn apart(full: &[LandmarkedMesh; 2], pairs: &[OwnPair]) -> Vec<OwnPair> {
+    let meshes = full.each_ref().map(|side| &side.refined.mesh);
+    let mut taken: [Vec<DVec3>; 2] = MeshSide::BOTH
+        .map(|side| full[side].landmarks.iter().map(|&v| meshes[side].positions()[v]).collect());
+    let mut is_apart = |pair: &&OwnPair| {
+        let places = [meshes[0].positions()[pair.source], pair.target.position(meshes[1])];
+        let is_free = MeshSide::BOTH
+            .iter()
+            .all(|&side| taken[side].iter().all(|p| p.distance(places[side]) >= LEAST_DISTANCE));
+        if is_free {
+            MeshSide::BOTH.iter().for_each(|&side| taken[side].push(places[side]));
+        }
+        is_free
+    };
+    pairs.iter().filter(|pair| is_apart(pair)).copied().collect()
+}
+
 /// The point moved onto a corner or a side that is near, so that no needles are made.
 fn snapped(point: SurfacePoint) -> SurfacePoint {
     SurfacePoint::clamped(point.face, point.barycentric.map(|w| if w < SNAP { 0.0 } else { w }))
@@ -164,7 +183,7 @@ mod tests {
         let images = LevelImages::of_itself(&Level::coarse(surface, &landmarks, 600, &mut Silent).unwrap());
         let mut before: Vec<VertexId> = Vec::new();
         for round in 0..4 {
-            let choice = PointChoice { count: 12, may: &|_| true };
+            let choice = PointChoice { count: 12, most: 12, gap: 1.0, may: &|_| true };
             let found: Vec<VertexId> = pairs(&full, &images, &before, choice, &mut Silent)
                 .unwrap()
                 .iter()

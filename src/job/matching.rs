@@ -10,7 +10,7 @@ use crate::landmarks::{MeshSide, check_side, points};
 use crate::mesh::check::CheckedMesh;
 use crate::mesh::insertion::{Insertion, insert};
 use crate::mesh::{FaceId, VertexId};
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stage};
 use serde::Serialize;
 use typed_index_collections::TiVec;
 
@@ -158,6 +158,7 @@ pub fn match_meshes(
     let may_mark = [0, 1].map(|k| may_mark(meshes[k], &placed[k]));
     let may_mark = MayMark { source: may_mark[0].as_deref(), target: may_mark[1].as_deref() };
     let input = MatchInput { source: &placed[0].mesh, target: &placed[1].mesh, given: &pairs, may_mark };
+    monitor.enter(Stage::Matching);
     let found = match_landmarks(input, options, monitor)?;
     let numbers = meshes.map(CheckedMesh::file_from_vertex);
     let in_file_numbers = InFileNumbers { given, numbers: &numbers };

@@ -22,7 +22,7 @@ use super::verdict::{Found, Verdict, verdict};
 use crate::landmarks::MeshSide;
 use crate::math::scalar::min;
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Cancelled, Monitor, Portion, Stage};
+use crate::monitor::{Cancelled, Monitor, OrStop, Portion};
 
 /// Why no landmarks were matched.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -47,6 +47,12 @@ pub enum MatchError {
         /// The pairs, 0-based.
         pairs: [usize; 2],
     },
+}
+
+impl OrStop for MatchError {
+    fn is_stop(&self) -> bool {
+        matches!(self, Self::Cancelled(_))
+    }
 }
 
 /// The result of a matching.
@@ -85,7 +91,6 @@ pub fn match_landmarks(
     options: &MatchOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<LandmarkMatch, MatchError> {
-    monitor.enter(Stage::Matching);
     check(input)?;
     let given = MeshSide::BOTH.map(|side| input.given.iter().map(|pair| pair[side]).collect::<Vec<_>>());
     let half = 0.5 * LOOKED;

@@ -5,6 +5,7 @@ mod borders;
 mod error;
 mod findings;
 mod flows;
+mod found_ends;
 mod input;
 mod landmark_doubts;
 mod options;

@@ -4,7 +4,7 @@ use super::attempt::{
     Attempt, Coarse, FINER_LEVELS, Scale, Solved, coarse, first_level, has_own_cones, has_own_cones_of_poses,
 };
 use super::borders::{BordersReport, CountedCaps, counted_caps};
-use super::{MapInput, PipelineError, PipelineOptions, Relaxation, second_look};
+use super::{MapInput, PipelineError, PipelineOptions, Relaxation, found_ends, second_look};
 use crate::coarse_map::class_search::ClassChoice;
 use crate::coarse_map::own_cones::{self, OwnConeOptions, Owners, Rounds, Start};
 use crate::coarse_map::unrelaxed::{Unrelaxed, solve_unrelaxed};
@@ -105,6 +105,9 @@ pub(super) fn certified(
 /// Progress of the search for the class before ends of limbs are looked at. Chosen by hand, for display only.
 const SEARCHED: f64 = 0.8;
 
+/// Progress of the stage of own cones before ends of limbs are matched, where that is needed. Chosen by hand, for display only.
+const ADDED: f64 = 0.7;
+
 /// Solves an attempt, from its coarse levels to the full meshes.
 fn solve(
     input: MapInput<'_>,
@@ -149,8 +152,14 @@ fn solve(
     let (meshes, levels) = (Rounds::new(&own_options), Rounds::new(&own_options));
     let start = Start { inputs: [input.source, input.target], full, map: &map, vertices, is_one_body: false };
     let owners = Owners { meshes: &meshes, levels: &levels };
-    let adding = &mut Portion::new(monitor, if has_own { 0.0 } else { SEARCHED }, 1.0);
-    let own = own_cones::add(start, owners, &options.multilevel, &own_options, adding)?;
+    let [begun, added] = if has_own { [0.0, ADDED] } else { [SEARCHED, 1.0] };
+    let adding = &mut Portion::new(monitor, begun, added);
+    let mut own = own_cones::add(start, owners, &options.multilevel, &own_options, adding)?;
+    let (meshes, levels) = (Rounds::new(&own_options), Rounds::new(&own_options));
+    if has_own && own_options.ends > 0 {
+        let owners = Owners { meshes: &meshes, levels: &levels };
+        own = found_ends::better(start, owners, own, options, &mut Portion::new(monitor, added, 1.0))?;
+    }
     monitor.enter(Stage::Relaxation);
     if let Some(own) = own {
         let worse = map.mean_log / own.mean_log();
