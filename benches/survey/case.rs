@@ -19,7 +19,7 @@ pub struct Case {
     pub meshes: [SurfaceMesh; 2],
     /// The landmarks on the source and on the target, in the order of the pairs.
     pub points: [Vec<SurfacePoint>; 2],
-    /// The true image of each vertex of the source in space, where it is known.
+    /// The true image of each vertex of the source in space, not a number for a vertex whose image is not known; `None` where none is.
     pub truth: Option<Vec<DVec3>>,
 }
 
@@ -171,7 +171,8 @@ impl Case {
                     .expect("the relaxed map has all images");
                 image.position(target).distance(*place) * scale
             };
-            mean_and_quantiles(truth.iter().enumerate().map(distance).collect())
+            let known = truth.iter().enumerate().filter(|(_, place)| place.is_finite());
+            mean_and_quantiles(known.map(distance).collect())
         });
         Reached {
             certified: report.certificate.as_ref().is_some_and(|c| c.bijective),

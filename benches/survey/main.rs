@@ -38,6 +38,7 @@ mod classes;
 mod clicks;
 mod cones;
 mod determinism;
+mod few;
 mod fit;
 mod fit_faults;
 mod folded;
@@ -81,6 +82,11 @@ const SURVEYS: &[Survey] = &[
         name: "clicks",
         about: "each landmark at a random point of a random face beside it",
         run: clicks::random,
+    },
+    Survey {
+        name: "few",
+        about: "five and eight of the landmarks, drawn at random, compared with all; --seeds N",
+        run: few::drawn,
     },
     Survey {
         name: "beside",
