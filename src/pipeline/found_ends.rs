@@ -12,8 +12,9 @@ use crate::mesh::{SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, unless_stopped};
 use typed_index_collections::TiVec;
 
-/// The mean log density of a coarse map with own cones from which on it is poor. With five or eight of the given landmarks of eight pairs of animals,
-/// drawn at random, maps with a limb at a wrong one had .35 to .71, and right ones mostly less than .3. Below that the matching hardly gains.
+/// The mean log density of a coarse map with own cones from which on it is poor. With five or eight of the given landmarks of seven pairs of animals,
+/// drawn at random, maps with a limb at a wrong one had .42 to .71, and others .23 to .48. Below .3 the matching gains as well, but takes its time on
+/// most pairs of animals (see docs/experiments.md).
 const POOR: f64 = 0.3;
 
 /// Progress of [`better`] once the ends are found. Chosen by hand, for display only.
