@@ -49,8 +49,7 @@ fn places_of(case: &Case, landmarks: &[usize]) -> Vec<DVec3> {
     let mut places = vec![DVec3::NAN; source.vertex_count()];
     for &k in landmarks {
         let [from, onto] = [&case.points[0][k], &case.points[1][k]];
-        let corner = (0..3).find(|&c| from.barycentric[c] > 0.5).expect("a vertex");
-        places[source.tail(from.face.halfedges()[corner]).index()] = onto.position(target);
+        places[from.heaviest_corner(source).index()] = onto.position(target);
     }
     places
 }

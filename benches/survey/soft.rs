@@ -69,9 +69,8 @@ fn settled(mut case: Case) -> Case {
     let told = case.truth.as_ref().map(|truth| {
         let off = |k: usize, place: &SurfacePoint| {
             let [s, _] = points[k];
-            let corner = (0..3).find(|&j| s.barycentric[j] > 0.5).expect("a vertex");
-            let v = meshes[0].triangles()[s.face][corner];
-            place.position(meshes[1]).distance(truth[v.index()]) / meshes[1].area().sqrt()
+            place.position(meshes[1]).distance(truth[s.heaviest_corner(meshes[0]).index()])
+                / meshes[1].area().sqrt()
         };
         let mean = |places: &mut dyn Iterator<Item = f64>| places.sum::<f64>() / points.len() as f64;
         let before = mean(&mut points.iter().enumerate().map(|(k, ends)| off(k, &ends[1])));

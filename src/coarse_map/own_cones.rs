@@ -155,6 +155,11 @@ impl OwnCones<'_> {
         self.map.mean_log
     }
 
+    /// Shows the coarse map to whoever waits.
+    pub fn show(&self, monitor: &mut dyn Monitor) {
+        monitor.preview(&self.map);
+    }
+
     /// The same on a finer level ([`on_finer_level`]); `None` where there is none, or where patches of both meshes do not fit each other there.
     ///
     /// # Errors
@@ -263,8 +268,7 @@ pub fn add<'a>(
     let is_one_body = start.is_one_body.then_some(true);
     let of_poses = &own.of_poses();
     let own = if start.is_one_body { of_poses } else { own };
-    let mut adding =
-        Adding { start, multilevel, own, cells: owners.cells(), before: Vec::new(), is_one_body };
+    let mut adding = Adding { is_one_body, ..Adding::new(start, owners, multilevel, own) };
     if start.is_one_body || full[0].landmarks.len() <= own.most_landmarks {
         adding.far_points(&images, monitor)
     } else {
@@ -286,12 +290,10 @@ pub fn add_at<'a>(
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones<'a>>, Cancelled> {
     let given = apart(start.full, given);
-    let mut adding =
-        Adding { start, multilevel, own, cells: owners.cells(), before: Vec::new(), is_one_body: None };
+    let mut adding = Adding::new(start, owners, multilevel, own);
     let Some(first) = adding.with_pairs(&given, adding.settled(own.search), monitor)? else {
         return Ok(None);
     };
-    monitor.preview(&first.map);
     let mut seen = SeenMaps::new(start.full[0].refined.mesh.vertex_count());
     seen.extend(first.map.images());
     let best = adding.further_rounds(SoFar { seen, best: Some(first) }, monitor)?;
@@ -333,7 +335,17 @@ struct Beginning<'a> {
     placed: Option<OwnCones<'a>>,
 }
 
-impl<'a> Adding<'_, 'a> {
+impl<'s, 'a> Adding<'s, 'a> {
+    /// No round yet, on bodies whose patches were not registered.
+    fn new(
+        start: Start<'s>,
+        owners: Owners<'a>,
+        multilevel: &'s MultilevelOptions,
+        own: &'s OwnConeOptions,
+    ) -> Self {
+        Self { start, multilevel, own, cells: owners.cells(), before: Vec::new(), is_one_body: None }
+    }
+
     /// Whether a round may come before the last `kept` ones.
     fn may_go_on(&self, kept: usize, monitor: &mut dyn Monitor) -> bool {
         self.cells.len() > kept && !monitor.wants_result()

@@ -84,8 +84,7 @@ pub(super) fn pairs(
         monitor.step(Step::default())?;
         let image = images.target_from_source[v];
         let place = image.position(&target.mesh);
-        let is_taken = places.iter().any(|p| p.distance(place) < LEAST_DISTANCE);
-        if is_taken || !weights[1].is_skin(image.face) {
+        if !is_apart(&places, place) || !weights[1].is_skin(image.face) {
             continue;
         }
         let [a, b, c] = target.mesh.corners(image.face);
@@ -105,17 +104,20 @@ pub(super) fn apart(full: &[LandmarkedMesh; 2], pairs: &[OwnPair]) -> Vec<OwnPai
     let meshes = full.each_ref().map(|side| &side.refined.mesh);
     let mut taken: [Vec<DVec3>; 2] = MeshSide::BOTH
         .map(|side| full[side].landmarks.iter().map(|&v| meshes[side].positions()[v]).collect());
-    let mut is_apart = |pair: &&OwnPair| {
+    let mut is_free = |pair: &&OwnPair| {
         let places = [meshes[0].positions()[pair.source], pair.target.position(meshes[1])];
-        let is_free = MeshSide::BOTH
-            .iter()
-            .all(|&side| taken[side].iter().all(|p| p.distance(places[side]) >= LEAST_DISTANCE));
+        let is_free = MeshSide::BOTH.iter().all(|&side| is_apart(&taken[side], places[side]));
         if is_free {
             MeshSide::BOTH.iter().for_each(|&side| taken[side].push(places[side]));
         }
         is_free
     };
-    pairs.iter().filter(|pair| is_apart(pair)).copied().collect()
+    pairs.iter().filter(|pair| is_free(pair)).copied().collect()
+}
+
+/// Whether a place is far enough from those that are taken.
+fn is_apart(taken: &[DVec3], place: DVec3) -> bool {
+    taken.iter().all(|p| p.distance(place) >= LEAST_DISTANCE)
 }
 
 /// The point moved onto a corner or a side that is near, so that no needles are made.
@@ -161,6 +163,33 @@ mod tests {
     use crate::mesh::coarsening::Level;
     use crate::mesh::generators::icosphere;
     use crate::monitor::Silent;
+
+    #[test]
+    fn pairs_apart_meet_neither_landmarks_nor_each_other_on_either_mesh() {
+        let ball = icosphere(5);
+        let beside = |d: DVec3| {
+            let off = |v: &VertexId| ball.positions()[*v].distance(d.normalize());
+            ball.vertices().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap()
+        };
+        // The ball of area 1 has a radius of .28, on which an edge is .01 long.
+        let landmarks = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_ONE].map(beside);
+        let full = [0, 1].map(|_| LandmarkedMesh::new(&ball, &landmarks).unwrap());
+        let mesh = &full[1].refined.mesh;
+        let pair = |from: DVec3, onto: DVec3| OwnPair {
+            source: beside(from),
+            target: SurfacePoint::at_vertex(mesh, beside(onto)),
+        };
+        let near = |d: DVec3| d + DVec3::new(0.04, -0.03, 0.02);
+        let [a, b, c] = [DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+        let given =
+            [pair(a, b), pair(near(a), c), pair(c, near(b)), pair(near(DVec3::X), a), pair(b, DVec3::Y)];
+        let kept = |given: &[OwnPair]| -> Vec<VertexId> {
+            apart(&full, given).iter().map(|pair| pair.source).collect()
+        };
+        assert_eq!(kept(&given), [beside(a)]);
+        // A pair that is not kept takes no place.
+        assert_eq!(kept(&[pair(near(DVec3::X), a), pair(b, near(a))]), [beside(b)]);
+    }
 
     /// Both ends of a long body are taken in every round, and no point twice.
     #[test]

@@ -253,6 +253,9 @@ impl Search<'_> {
     /// those of other candidates.
     fn look_closer(&mut self, tables: &Tables<'_>, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
         let Some(best) = self.found.first() else { return Ok(()) };
+        if self.options.small_ends == 0 {
+            return Ok(());
+        }
         let ends = SmallEnds::new(tables, &best.assignment, self.options);
         let exchanges = near_exchanges(&self.found, self.options);
         let most = ends.as_ref().map_or(1, SmallEnds::most_looks) + exchanges.len();

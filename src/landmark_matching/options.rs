@@ -41,7 +41,7 @@ pub struct MatchOptions {
     /// Small changes of the best candidate that are judged, at most; as many again where it is turned about an end, or near partners are
     /// exchanged.
     pub changes: usize,
-    /// Pairs of small ends that are judged by finer maps, at most.
+    /// Pairs of small ends that are judged by finer maps, at most; 0 for no finer maps at all.
     pub small_ends: usize,
     /// Candidates that are judged on the target's mirror image.
     pub mirrored: usize,

@@ -3,9 +3,8 @@
 //! A few landmarks on one side of a body or on its trunk say little of its legs. A map that takes a leg to the wrong one is a minimum out of
 //! which no further point leads, since its image is wrong as well. The matching judges whole assignments of ends by maps of their own.
 
-use super::PipelineOptions;
-use crate::coarse_map::LandmarkedMesh;
-use crate::coarse_map::own_cones::{self, OwnCones, OwnPair, Owners, Start};
+use crate::coarse_map::own_cones::{self, OwnConeOptions, OwnCones, OwnPair, Owners, Start};
+use crate::coarse_map::{LandmarkedMesh, MultilevelOptions};
 use crate::landmark_matching::{MatchInput, MatchOptions, MatchedPair, MayMark, PairOrigin, match_landmarks};
 use crate::landmarks::MeshSide;
 use crate::mesh::{SurfacePoint, VertexId};
@@ -29,7 +28,8 @@ pub(super) fn better<'a>(
     start: Start<'_>,
     owners: Owners<'a>,
     found: Option<OwnCones<'a>>,
-    options: &PipelineOptions,
+    multilevel: &MultilevelOptions,
+    own: &OwnConeOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones<'a>>, Cancelled> {
     let reached = found.as_ref().map_or(start.map.mean_log, OwnCones::mean_log);
@@ -37,9 +37,11 @@ pub(super) fn better<'a>(
         return Ok(found);
     }
     let pairs = ends(start.full, &mut Portion::new(monitor, 0.0, FOUND).unseen())?;
-    let beginning = &mut Portion::new(monitor, FOUND, 1.0);
-    let led = own_cones::add_at(start, owners, &pairs, &options.multilevel, &options.own_cones, beginning)?;
-    Ok(led.filter(|led| led.mean_log() < reached).or(found))
+    let beginning = &mut Portion::new(monitor, FOUND, 1.0).unseen();
+    let led = own_cones::add_at(start, owners, &pairs, multilevel, own, beginning)?;
+    let Some(led) = led.filter(|led| led.mean_log() < reached) else { return Ok(found) };
+    led.show(monitor);
+    Ok(Some(led))
 }
 
 /// The pairs of ends of the best candidate beside the user's landmarks; none where nothing is found.

@@ -158,7 +158,8 @@ fn solve(
     let (meshes, levels) = (Rounds::new(&own_options), Rounds::new(&own_options));
     if has_own && own_options.ends > 0 {
         let owners = Owners { meshes: &meshes, levels: &levels };
-        own = found_ends::better(start, owners, own, options, &mut Portion::new(monitor, added, 1.0))?;
+        let watched = &mut Portion::new(monitor, added, 1.0);
+        own = found_ends::better(start, owners, own, &options.multilevel, &own_options, watched)?;
     }
     monitor.enter(Stage::Relaxation);
     if let Some(own) = own {
