@@ -66,7 +66,7 @@ fn ends(full: &[LandmarkedMesh; 2], monitor: &mut dyn Monitor) -> Result<Vec<Own
 }
 
 /// The matching where the user's landmarks steer it. They say which side is which, so that mirror images are not looked at; ears and horns lead no
-/// limb. On nine pairs of animals with five and eight drawn landmarks, 33 maps, fewer candidates than usual gave the same ends on 32, in half the time
+/// limb. On eight pairs of animals with five and eight drawn landmarks, 33 maps, fewer candidates than usual gave the same ends on 32, in half the time
 /// (see docs/experiments.md).
 fn few_candidates() -> MatchOptions {
     MatchOptions {
