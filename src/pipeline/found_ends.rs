@@ -65,9 +65,9 @@ fn ends(full: &[LandmarkedMesh; 2], monitor: &mut dyn Monitor) -> Result<Vec<Own
     Ok(own.map(pair).collect())
 }
 
-/// The matching where the user's landmarks steer it. They say which side is which, so that mirror images are not looked at; ears and horns lead no
-/// limb. On eight pairs of animals with five and eight drawn landmarks, 33 maps, fewer candidates than usual gave the same ends on 32, in half the time
-/// (see docs/experiments.md).
+/// The options where the user's landmarks steer the matching. They say which side is which, so that mirror images are not looked at; ears and
+/// horns lead no limb. On eight pairs of animals with five and eight drawn landmarks, 33 maps, fewer candidates than usual gave the same ends
+/// on 32, in half the time (see docs/experiments.md).
 fn few_candidates() -> MatchOptions {
     MatchOptions {
         candidates: 3,
