@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
 import type { Page, Request } from '@playwright/test';
 import { expect, test } from './test.ts';
-import { dropContents, fail, open, openDemo, ROOT, runMap, TETRAHEDRON } from './page.ts';
+import { dropContents, fail, kept, open, openDemo, ROOT, runMap, TETRAHEDRON } from './page.ts';
 
 const ASSETS = join(ROOT, 'dist/assets');
 /** The most bytes of the first load, packed with gzip. */
@@ -190,7 +190,7 @@ test('a mesh that is dropped while the page is loading again comes onto the work
   await openDemo(page);
   await dropContents(page, [SMALL]);
   await expect(page.locator('.caption').filter({ hasText: 'small' })).toHaveCount(1);
-  await page.evaluate(() => dispatchEvent(new Event('pagehide')));
+  await kept(page, 0);
   await openWhileDropping(page, '', [{ ...SMALL, name: 'second.obj' }]);
   await expect(page.locator('.caption').filter({ hasText: 'second' })).toHaveCount(1);
   await expect(page.locator('.caption').filter({ hasText: 'cat' })).toHaveCount(1);

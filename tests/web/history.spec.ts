@@ -3,7 +3,7 @@ import type { Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import type { Upload } from './own-files.ts';
 import { ownFiles, upload } from './own-files.ts';
-import { dropContents, TETRAHEDRON } from './page.ts';
+import { dropContents, kept, TETRAHEDRON } from './page.ts';
 
 async function open(page: Page, hash = ''): Promise<void> {
   await page.goto(`/${hash}`);
@@ -27,29 +27,6 @@ async function openOwn(page: Page, target: Upload): Promise<number> {
   await page.locator('#landmark-file').setInputFiles(landmarks);
   await shows(page, 'horse.obj', 'cat.obj', pairs);
   return pairs;
-}
-
-/** Waits until the browser has kept work with this many pairs. */
-async function kept(page: Page, pairs: number): Promise<void> {
-  const counts = (): Promise<number[]> =>
-    page.evaluate(
-      () =>
-        new Promise<number[]>((resolve, reject) => {
-          const opening = indexedDB.open('conemap');
-          opening.onerror = () => {
-            reject(new Error('the store does not open'));
-          };
-          opening.onsuccess = () => {
-            const database = opening.result;
-            const all = database.transaction('sessions').objectStore('sessions').getAll();
-            all.onsuccess = () => {
-              database.close();
-              resolve((all.result as { work: { pairs: unknown[] } }[]).map(({ work }) => work.pairs.length));
-            };
-          };
-        }),
-    );
-  await expect.poll(counts).toContain(pairs);
 }
 
 test('a target that was mirrored is taken back with all landmarks, and mirrored again', async ({ page }) => {

@@ -102,3 +102,26 @@ export async function showSurface(page: Page, name: string): Promise<void> {
   await page.getByRole('radio', { name, exact: true }).check();
   await page.keyboard.press('Escape');
 }
+
+/** Waits until the browser has kept work with this many pairs. */
+export async function kept(page: Page, pairs: number): Promise<void> {
+  const counts = (): Promise<number[]> =>
+    page.evaluate(
+      () =>
+        new Promise<number[]>((resolve, reject) => {
+          const opening = indexedDB.open('conemap');
+          opening.onerror = () => {
+            reject(new Error('the store does not open'));
+          };
+          opening.onsuccess = () => {
+            const database = opening.result;
+            const all = database.transaction('sessions').objectStore('sessions').getAll();
+            all.onsuccess = () => {
+              database.close();
+              resolve((all.result as { work: { pairs: unknown[] } }[]).map(({ work }) => work.pairs.length));
+            };
+          };
+        }),
+    );
+  await expect.poll(counts).toContain(pairs);
+}
