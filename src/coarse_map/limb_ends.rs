@@ -80,6 +80,21 @@ pub(super) fn pairs(
     Ok(found.iter().map(pair).collect())
 }
 
+/// The number of ends of limbs, of at most `most` without a landmark, that are farther than `distance` from all landmarks: that of the mesh with
+/// fewer. The area is 1.
+pub(super) fn unmarked(
+    full: &[LandmarkedMesh; 2],
+    present: &LevelImages,
+    most: usize,
+    distance: f64,
+    monitor: &mut dyn Monitor,
+) -> Result<usize, Cancelled> {
+    let source = ends(MeshSide::Source, full, present, most, monitor)?;
+    let target = ends(MeshSide::Target, full, present, most, monitor)?;
+    let remote = |ends: &[End]| ends.iter().filter(|end| end.apart() > distance).count();
+    Ok(remote(&source).min(remote(&target)))
+}
+
 /// The ends of limbs of a level that are skin and lie apart from all landmarks, at most `most`: the most remote.
 fn ends(
     side: MeshSide,
@@ -117,14 +132,23 @@ mod tests {
     use glam::DVec3;
     use typed_index_collections::TiVec;
 
-    /// The places of the pairs that are found with these landmarks, on both meshes scaled to area 1.
-    fn found(meshes: [&SurfaceMesh; 2], landmarks: [&[VertexId]; 2]) -> Vec<[DVec3; 2]> {
+    /// Both meshes with these landmarks, and their coarse levels.
+    fn with_levels(
+        meshes: [&SurfaceMesh; 2],
+        landmarks: [&[VertexId]; 2],
+    ) -> ([LandmarkedMesh; 2], LevelImages) {
         let full = [0, 1].map(|k| LandmarkedMesh::new(meshes[k], landmarks[k]).unwrap());
         let level = |k: usize| {
             let full: &LandmarkedMesh = &full[k];
             Level::coarse(&full.refined.mesh, &full.landmarks.raw, 600, &mut Silent).unwrap()
         };
         let present = LevelImages::of_skin([level(0), level(1)], TiVec::new());
+        (full, present)
+    }
+
+    /// The places of the pairs that are found with these landmarks, on both meshes scaled to area 1.
+    fn found(meshes: [&SurfaceMesh; 2], landmarks: [&[VertexId]; 2]) -> Vec<[DVec3; 2]> {
+        let (full, present) = with_levels(meshes, landmarks);
         let pairs = pairs(&full, &present, 12, &mut Silent).unwrap();
         let [source, target] = full.each_ref().map(|full| &full.refined.mesh);
         pairs.iter().map(|pair| [source.positions()[pair.source], pair.target.position(target)]).collect()
@@ -163,5 +187,28 @@ mod tests {
         let belly = demo.labels.iter().position(|label| label == "belly").unwrap();
         let with: Vec<VertexId> = side(1).enumerate().filter(|(k, _)| *k != belly).map(|(_, v)| v).collect();
         assert!(found([&demo.source, &demo.target], [&without, &with]).is_empty());
+    }
+
+    #[test]
+    fn ends_far_from_all_landmarks_are_counted_on_the_mesh_with_fewer() {
+        let demo = demo::build("horse-cat").unwrap();
+        let meshes = [&demo.source, &demo.target];
+        let only = |names: &[&str], side: usize| {
+            let kept = |name: &&str| demo.labels.iter().position(|label| label == name).unwrap();
+            names.iter().map(|name| VertexId(demo.landmarks[kept(name)][side])).collect::<Vec<_>>()
+        };
+        let trunk = ["nose", "withers", "croup", "chest", "belly", "left flank"];
+        let feet = ["left fore foot", "left hind foot", "right fore foot", "right hind foot"];
+        let all = [&trunk[..], &feet[..]].concat();
+        let count = |names: [&[&str]; 2], distance| {
+            let [source, target] = [0, 1].map(|side| only(names[side], side));
+            let (full, present) = with_levels(meshes, [&source, &target]);
+            unmarked(&full, &present, 12, distance, &mut Silent).unwrap()
+        };
+        let far = 0.3;
+        assert!(count([&trunk, &trunk], far) >= 4);
+        assert!(count([&all, &all], far) < 2);
+        assert_eq!(count([&trunk, &all], far), count([&all, &trunk], far));
+        assert_eq!(count([&trunk, &trunk], 3.0), 0);
     }
 }

@@ -244,6 +244,21 @@ pub fn on_finer_level(
     Ok(map.refine_to(own.finer_vertices, options, monitor)? && map.is_of_one_body())
 }
 
+/// The number of ends of limbs that are farther than `distance` from all landmarks, of at most as many as the options say: that of the mesh with fewer;
+/// 0 where the coarse map gives no images. The area is 1.
+///
+/// # Errors
+/// Cancellation only.
+pub fn unmarked_ends(
+    start: Start<'_>,
+    distance: f64,
+    own: &OwnConeOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<usize, Cancelled> {
+    let Some(images) = start.map.images() else { return Ok(0) };
+    limb_ends::unmarked(start.full, &images, own.ends, distance, monitor)
+}
+
 /// Adds own landmarks round by round, as long as they lower the mean log density of the coarse map; `None` where they do not.
 ///
 /// Ends of limbs without a landmark are added. Where there are few landmarks, and between two poses of one body, there are rounds of points

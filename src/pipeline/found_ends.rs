@@ -1,9 +1,10 @@
-//! The map with cones at ends of limbs that the matching finds, where few landmarks leave it poor.
+//! The map whose cones of the program's own begin at ends of limbs that the matching finds, where landmarks leave limbs unmarked.
 //!
-//! A few landmarks on one side of a body or on its trunk say little of its legs. A map that takes a leg to the wrong one is a minimum out of
-//! which no further point leads, since its image is wrong as well. The matching judges whole assignments of ends by maps of their own.
+//! A few landmarks on one side of a body or on its trunk say little of its legs. A map that takes a leg to the wrong one, or turns it, is a
+//! minimum out of which no further point leads, since its image is wrong as well. The matching judges whole assignments of ends by maps of their
+//! own.
 
-use crate::coarse_map::own_cones::{self, OwnConeOptions, OwnCones, OwnPair, Owners, Start};
+use crate::coarse_map::own_cones::{self, OwnConeOptions, OwnCones, OwnPair, Owners, Start, unmarked_ends};
 use crate::coarse_map::{LandmarkedMesh, MultilevelOptions};
 use crate::landmark_matching::{MatchInput, MatchOptions, MatchedPair, MayMark, PairOrigin, match_landmarks};
 use crate::landmarks::MeshSide;
@@ -11,41 +12,98 @@ use crate::mesh::{SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, unless_stopped};
 use typed_index_collections::TiVec;
 
-/// The mean log density of a coarse map with own cones from which on it is poor. With five or eight of the given landmarks of seven pairs of animals,
-/// drawn at random, maps with a limb at a wrong one had .42 to .71, and others .23 to .48. Below .3 the matching gains as well, but takes its time on
-/// most pairs of animals (see docs/experiments.md).
+/// Limbs are unmarked where at least this many of their ends, on both meshes, are farther than [`REMOTE`] from all landmarks.
+const UNMARKED: usize = 2;
+
+/// The distance from all landmarks, where the area is 1. With five and eight landmarks drawn at random, 20 maps looked at, the end that is second
+/// farthest from them is at .44 and more; with twelve, as far from each other as can be, at .36 at most on 21 pairs, and with these matched ends make
+/// maps neither better nor worse, but take up to 1.4 times as long (see docs/experiments.md).
+const REMOTE: f64 = 0.4;
+
+/// The mean log density of a coarse map with own cones from which on it is poor. With images under the first map those of animals with a limb at a
+/// wrong one had .42 to .71, others .23 to .48.
 const POOR: f64 = 0.3;
 
-/// Progress of [`better`] once the ends are found. Chosen by hand, for display only.
-const FOUND: f64 = 0.6;
+/// Progress of the rounds that begin with matched ends once these are found. Chosen by hand, for display only.
+const FOUND: f64 = 0.4;
 
-/// The map that begins with cones at ends that the matching finds beside the user's landmarks, where the one that was found is poor and this
-/// one is better; else that one.
+/// Progress after the first of two ways to begin, where both are needed. Chosen by hand, for display only.
+const BEGUN: f64 = 0.7;
+
+/// The map with own cones: where the landmarks leave limbs unmarked, its rounds begin with ends that the matching finds beside these; else with
+/// images under the map of the landmarks. Where that map is poor ([`POOR`]) both ways are gone, and the map with the lower mean log density is
+/// kept. `None` where none is better than the start.
 ///
 /// # Errors
 /// Cancellation only.
-pub(super) fn better<'a>(
+pub(super) fn with_own_cones<'a>(
     start: Start<'_>,
-    owners: Owners<'a>,
-    found: Option<OwnCones<'a>>,
+    owners: [Owners<'a>; 2],
     multilevel: &MultilevelOptions,
     own: &OwnConeOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones<'a>>, Cancelled> {
-    let reached = found.as_ref().map_or(start.map.mean_log, OwnCones::mean_log);
-    if reached < POOR || monitor.wants_result() {
-        return Ok(found);
+    let [first, second] = owners;
+    if are_limbs_unmarked(start, own, monitor)? {
+        let led = led(start, first, multilevel, own, &mut Portion::new(monitor, 0.0, BEGUN))?;
+        if led.as_ref().is_some_and(|led| led.mean_log() < POOR || monitor.wants_result()) {
+            return Ok(led);
+        }
+        let adding = Portion::new(monitor, BEGUN, 1.0);
+        let adding = &mut if led.is_some() { adding.unseen() } else { adding };
+        let added = own_cones::add(start, second, multilevel, own, adding)?;
+        return Ok(better(led, added, monitor));
     }
-    let pairs = ends(start.full, &mut Portion::new(monitor, 0.0, FOUND).unseen())?;
-    let beginning = &mut Portion::new(monitor, FOUND, 1.0).unseen();
+    let added = own_cones::add(start, first, multilevel, own, &mut Portion::new(monitor, 0.0, BEGUN))?;
+    let reached = added.as_ref().map_or(start.map.mean_log, OwnCones::mean_log);
+    if reached < POOR || own.ends == 0 || monitor.wants_result() {
+        return Ok(added);
+    }
+    let led = led(start, second, multilevel, own, &mut Portion::new(monitor, BEGUN, 1.0).unseen())?;
+    Ok(better(added, led, monitor))
+}
+
+/// Of two maps the other one, where there is no first one or the other has a lower mean log density; it is shown then.
+fn better<'a>(
+    first: Option<OwnCones<'a>>,
+    other: Option<OwnCones<'a>>,
+    monitor: &mut dyn Monitor,
+) -> Option<OwnCones<'a>> {
+    let least = first.as_ref().map_or(f64::INFINITY, OwnCones::mean_log);
+    let Some(other) = other.filter(|other| other.mean_log() < least) else { return first };
+    other.show(monitor);
+    Some(other)
+}
+
+/// Whether the landmarks leave limbs unmarked on a body whose map is not nearly an isometry.
+fn are_limbs_unmarked(
+    start: Start<'_>,
+    own: &OwnConeOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<bool, Cancelled> {
+    if own.ends == 0 || start.map.mean_log < own.least_mean_log || monitor.wants_result() {
+        return Ok(false);
+    }
+    let looking = &mut Portion::new(monitor, 0.0, 0.0);
+    Ok(unmarked_ends(start, REMOTE, own, looking)? >= UNMARKED)
+}
+
+/// The map whose rounds begin with matched ends, where that is better than the start.
+fn led<'a>(
+    start: Start<'_>,
+    owners: Owners<'a>,
+    multilevel: &MultilevelOptions,
+    own: &OwnConeOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Option<OwnCones<'a>>, Cancelled> {
+    let pairs = matched(start.full, &mut Portion::new(monitor, 0.0, FOUND).unseen())?;
+    let beginning = &mut Portion::new(monitor, FOUND, 1.0);
     let led = own_cones::add_at(start, owners, &pairs, multilevel, own, beginning)?;
-    let Some(led) = led.filter(|led| led.mean_log() < reached) else { return Ok(found) };
-    led.show(monitor);
-    Ok(Some(led))
+    Ok(led.filter(|led| led.mean_log() < start.map.mean_log))
 }
 
 /// The pairs of ends of the best candidate beside the user's landmarks; none where nothing is found.
-fn ends(full: &[LandmarkedMesh; 2], monitor: &mut dyn Monitor) -> Result<Vec<OwnPair>, Cancelled> {
+fn matched(full: &[LandmarkedMesh; 2], monitor: &mut dyn Monitor) -> Result<Vec<OwnPair>, Cancelled> {
     let [source, target] = full;
     let given: Vec<[VertexId; 2]> =
         source.landmarks.iter().zip(&target.landmarks).map(|(&s, &t)| [s, t]).collect();

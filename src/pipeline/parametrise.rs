@@ -105,9 +105,6 @@ pub(super) fn certified(
 /// Progress of the search for the class before ends of limbs are looked at. Chosen by hand, for display only.
 const SEARCHED: f64 = 0.8;
 
-/// Progress of the stage of own cones before ends of limbs are matched, where that is needed. Chosen by hand, for display only.
-const ADDED: f64 = 0.7;
-
 /// Solves an attempt, from its coarse levels to the full meshes.
 fn solve(
     input: MapInput<'_>,
@@ -149,18 +146,18 @@ fn solve(
     // A search with ends of limbs would go back to the best class.
     let ends = if options.class == ClassChoice::Best { options.own_cones.ends } else { 0 };
     let own_options = OwnConeOptions { ends, ..options.own_cones };
-    let (meshes, levels) = (Rounds::new(&own_options), Rounds::new(&own_options));
-    let start = Start { inputs: [input.source, input.target], full, map: &map, vertices, is_one_body: false };
-    let owners = Owners { meshes: &meshes, levels: &levels };
-    let [begun, added] = if has_own { [0.0, ADDED] } else { [SEARCHED, 1.0] };
-    let adding = &mut Portion::new(monitor, begun, added);
-    let mut own = own_cones::add(start, owners, &options.multilevel, &own_options, adding)?;
-    let (meshes, levels) = (Rounds::new(&own_options), Rounds::new(&own_options));
-    if has_own && own_options.ends > 0 {
-        let owners = Owners { meshes: &meshes, levels: &levels };
-        let watched = &mut Portion::new(monitor, added, 1.0);
-        own = found_ends::better(start, owners, own, &options.multilevel, &own_options, watched)?;
-    }
+    let inputs = [input.source, input.target];
+    let start = Start { inputs, full, map: &map, vertices, is_one_body: false };
+    let meshes = [Rounds::new(&own_options), Rounds::new(&own_options)];
+    let levels = [Rounds::new(&own_options), Rounds::new(&own_options)];
+    let owners = [0, 1].map(|k| Owners { meshes: &meshes[k], levels: &levels[k] });
+    let multilevel = &options.multilevel;
+    let own = if has_own {
+        found_ends::with_own_cones(start, owners, multilevel, &own_options, monitor)?
+    } else {
+        let adding = &mut Portion::new(monitor, SEARCHED, 1.0);
+        own_cones::add(start, owners[0], multilevel, &own_options, adding)?
+    };
     monitor.enter(Stage::Relaxation);
     if let Some(own) = own {
         let worse = map.mean_log / own.mean_log();

@@ -13,6 +13,8 @@ use glam::DVec3;
 struct AskAt {
     steps: usize,
     limit: usize,
+    /// The number of steps up to the stage of the program's own cones.
+    searched: usize,
     /// The number of steps up to the certificate; the flows for the textures come after it.
     relaxed: usize,
     /// The energies of the steps of each relaxation.
@@ -21,8 +23,10 @@ struct AskAt {
 
 impl Monitor for AskAt {
     fn enter(&mut self, stage: Stage) {
-        if stage == Stage::Certificate {
-            self.relaxed = self.steps;
+        match stage {
+            Stage::OwnCones => self.searched = self.steps,
+            Stage::Certificate => self.relaxed = self.steps,
+            _ => {}
         }
     }
 
@@ -115,4 +119,29 @@ fn two_animals_at_a_few_times() {
     let input = MapInput::new(&demo.source, &demo.target, &landmarks);
     let energies = check(input, |steps| vec![0, steps / 2, steps - 12, steps - 3]);
     assert!(energies[0] > 1.002 * energies[3], "{energies:?}");
+}
+
+/// The landmarks are on the trunk and the head, so that the ends of legs are matched first, and become cones of the program's own.
+#[test]
+fn two_animals_while_ends_of_legs_are_matched() {
+    let demo = demo::build("horse-cat").unwrap();
+    let kept = ["nose", "withers", "croup", "chest", "belly", "left flank"];
+    let place = |name| demo.labels.iter().position(|label| label == name).unwrap();
+    let pairs = kept.map(|name| demo.landmarks[place(name)]);
+    let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &pairs).unwrap();
+    let input = MapInput::new(&demo.source, &demo.target, &landmarks);
+    let (full, all) = asked_at(input, usize::MAX);
+    assert!(full.report.own_landmarks > 0);
+    let foot = place("right hind foot");
+    let [from, onto] = demo.landmarks[foot].map(VertexId);
+    let image = full.target_from_source[from].unwrap().position(&demo.target);
+    let off = image.distance(demo.target.positions()[onto]) / demo.target.area().sqrt();
+    assert!(off < 0.1, "the foot is {off} of the root of the area away");
+    let least = full.report.distortion.energy;
+    for share in [0.01, 0.1, 0.3] {
+        let limit = all.searched + (share * (all.relaxed - all.searched) as f64) as usize;
+        let (early, _) = asked_at(input, limit);
+        let energy = early.report.distortion.energy;
+        assert!(energy > least * 0.995, "asked after {limit} steps: {energy} instead of {least}");
+    }
 }

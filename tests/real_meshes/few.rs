@@ -7,7 +7,8 @@ use conemap::pipeline::{PipelineOptions, run};
 use std::path::Path;
 
 tests![
-    legs_without_landmarks_go_to_their_own;
+    legs_without_landmarks_go_to_their_own,
+    unmarked_legs_of_a_pose_are_not_turned;
     long:
     own_cones_lower_the_distortion_of_twelve_landmarks,
 ];
@@ -34,4 +35,15 @@ fn legs_without_landmarks_go_to_their_own(data: &Path) {
         let off = image.distance(all.target.positions()[onto]) / root;
         assert!(off < 0.25, "{from:?} is {off} off");
     }
+}
+
+/// Eight landmarks of two poses of a horse, which leave limbs unmarked: .2 % of the root of the area from the known map. Where rounds of own cones
+/// begin with images under the map of these landmarks, and not with matched ends, it is .6 %.
+fn unmarked_legs_of_a_pose_are_not_turned(data: &Path) {
+    let all: Case = read_pair(data, "horse-horse01").into();
+    let few = all.only(&[12, 0, 24, 2, 20, 29, 28, 27]);
+    let map = run(few.input(), &PipelineOptions::default(), &mut Silent).unwrap();
+    assert!(map.report.certificate.as_ref().is_some_and(|c| c.bijective));
+    let error = map.report.ground_truth.unwrap().mean;
+    assert!(error < 0.0035, "{error} of the root of the area");
 }
