@@ -291,8 +291,8 @@ pub fn add<'a>(
     }
 }
 
-/// Adds own landmarks in the same rounds, but begins with given pairs, as ends of limbs that a matching has found; `None` where there are none,
-/// or no map with them.
+/// Adds own landmarks in the same rounds, but begins with given pairs, as ends of limbs that a matching has found, and with points at their images under
+/// the map; `None` where there are no such pairs, or no map with them. A pair may be wrong, and the map turn a limb: further rounds see both.
 ///
 /// # Errors
 /// Cancellation only.
@@ -309,9 +309,19 @@ pub fn add_at<'a>(
     let Some(first) = adding.with_pairs(&given, adding.settled(own.search), monitor)? else {
         return Ok(None);
     };
+    let mut maps = vec![first];
+    if adding.may_go_on(own.finer_rounds, monitor)
+        && let Some(images) = start.map.images()
+    {
+        maps.extend(adding.round(&images, |_| true, &own.search, monitor)?);
+    }
+    // The next round takes the levels of the last map.
+    maps.sort_by(|a, b| b.mean_log().total_cmp(&a.mean_log()));
     let mut seen = SeenMaps::new(start.full[0].refined.mesh.vertex_count());
-    seen.extend(first.map.images());
-    let best = adding.further_rounds(SoFar { seen, best: Some(first) }, monitor)?;
+    maps.iter().for_each(|map| seen.extend(map.map.images()));
+    let best = maps.pop();
+    best.iter().for_each(|best| monitor.preview(&best.map));
+    let best = adding.further_rounds(SoFar { seen, best }, monitor)?;
     adding.on_finer_levels(best, monitor)
 }
 
