@@ -31,7 +31,7 @@ const FOUND: f64 = 0.4;
 const BEGUN: f64 = 0.7;
 
 /// The map with own cones: where the landmarks leave limbs unmarked, its rounds begin with ends that the matching finds beside these; else with
-/// images under the map of the landmarks. Where that map is poor ([`POOR`]) both ways are gone, and the map with the lower mean log density is
+/// images under the map of the landmarks. Where that map is poor ([`POOR`]) both are tried, and the map with the lower mean log density is
 /// kept. `None` where none is better than the start.
 ///
 /// # Errors
