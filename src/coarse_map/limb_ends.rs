@@ -209,6 +209,7 @@ mod tests {
         assert!(count([&trunk, &trunk], far) >= 4);
         assert!(count([&all, &all], far) < 2);
         assert_eq!(count([&trunk, &all], far), count([&all, &trunk], far));
+        assert!(count([&trunk, &all], far) < 2);
         assert_eq!(count([&trunk, &trunk], 3.0), 0);
     }
 }

@@ -291,8 +291,9 @@ pub fn add<'a>(
     }
 }
 
-/// Adds own landmarks in the same rounds, but begins with given pairs, as ends of limbs that a matching has found, and with points at their images under
-/// the map; `None` where there are no such pairs, or no map with them. A pair may be wrong, and a limb may be turned under the map, so further rounds see both.
+/// Adds own landmarks in the same rounds, but begins with given pairs, as ends of limbs that a matching has found, and with points at their images
+/// under the map; `None` where there are no such pairs, or no map with them. A pair may be wrong, and a limb may be turned under the map, so
+/// further rounds see both.
 ///
 /// # Errors
 /// Cancellation only.

@@ -16,7 +16,7 @@ use typed_index_collections::TiVec;
 const UNMARKED: usize = 2;
 
 /// The distance from all landmarks, where the area is 1. With five and eight landmarks drawn at random, 20 maps looked at, the end that is second
-/// farthest from them is at .44 and more; with twelve, as far from each other as can be, at .36 at most on 21 pairs, and with these matched ends make
+/// farthest from them is at .44 and more; with twelve, as far from each other as can be, at .30 at most on 21 pairs, and with these matched ends make
 /// maps neither better nor worse, but take up to 1.4 times as long (see docs/experiments.md).
 const REMOTE: f64 = 0.4;
 
