@@ -1,25 +1,20 @@
 //! Coarse maps: the class of the map is chosen among maps of two coarse levels, and the chosen map is refined to the full meshes.
 
-mod best_images;
 mod brief;
 pub mod class_search;
-mod distance_guess;
 mod error;
 mod landmarked_mesh;
 mod layout_points;
-mod limb_ends;
 mod mesh_with_coarse;
 pub mod multilevel;
 mod options;
 pub mod own_cones;
-mod own_points;
 mod preview;
 mod rim_draws;
 mod rims;
 mod skin;
 pub mod unrelaxed;
 
-pub use best_images::share_elsewhere;
 pub use brief::{BriefOptions, brief_map};
 pub use error::CoarseMapError;
 pub use landmarked_mesh::{LEAST_PER_LANDMARK, LandmarkedMesh};

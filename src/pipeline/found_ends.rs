@@ -4,8 +4,8 @@
 //! minimum out of which no further point leads, since its image is wrong as well. The matching judges whole assignments of ends by maps of their
 //! own.
 
-use crate::coarse_map::own_cones::{self, OwnConeOptions, OwnCones, OwnPair, Owners, Start, unmarked_ends};
-use crate::coarse_map::{LandmarkedMesh, MultilevelOptions};
+use crate::coarse_map::LandmarkedMesh;
+use crate::coarse_map::own_cones::{self, OwnCones, OwnPair, Owners, Start};
 use crate::landmark_matching::{MatchInput, MatchOptions, MatchedPair, MayMark, PairOrigin, match_landmarks};
 use crate::landmarks::MeshSide;
 use crate::mesh::{SurfacePoint, VertexId};
@@ -37,29 +37,27 @@ const BEGUN: f64 = 0.7;
 /// # Errors
 /// Cancellation only.
 pub(super) fn with_own_cones<'a>(
-    start: Start<'_>,
+    start: &Start<'_>,
     owners: [Owners<'a>; 2],
-    multilevel: &MultilevelOptions,
-    own: &OwnConeOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones<'a>>, Cancelled> {
     let [first, second] = owners;
-    if are_limbs_unmarked(start, own, monitor)? {
-        let led = led(start, first, multilevel, own, &mut Portion::new(monitor, 0.0, BEGUN))?;
+    if are_limbs_unmarked(start, monitor)? {
+        let led = led(start, first, &mut Portion::new(monitor, 0.0, BEGUN))?;
         if led.as_ref().is_some_and(|led| led.mean_log() < POOR || monitor.wants_result()) {
             return Ok(led);
         }
         let adding = Portion::new(monitor, BEGUN, 1.0);
         let adding = &mut if led.is_some() { adding.unseen() } else { adding };
-        let added = own_cones::add(start, second, multilevel, own, adding)?;
+        let added = own_cones::add(start, second, adding)?;
         return Ok(better(led, added, monitor));
     }
-    let added = own_cones::add(start, first, multilevel, own, &mut Portion::new(monitor, 0.0, BEGUN))?;
-    let reached = added.as_ref().map_or(start.map.mean_log, OwnCones::mean_log);
-    if reached < POOR || own.ends == 0 || monitor.wants_result() {
+    let added = own_cones::add(start, first, &mut Portion::new(monitor, 0.0, BEGUN))?;
+    let reached = added.as_ref().map_or(start.mean_log(), OwnCones::mean_log);
+    if reached < POOR || !start.looks_for_ends() || monitor.wants_result() {
         return Ok(added);
     }
-    let led = led(start, second, multilevel, own, &mut Portion::new(monitor, BEGUN, 1.0).unseen())?;
+    let led = led(start, second, &mut Portion::new(monitor, BEGUN, 1.0).unseen())?;
     Ok(better(added, led, monitor))
 }
 
@@ -75,31 +73,22 @@ fn better<'a>(
     Some(other)
 }
 
-/// Whether the landmarks leave limbs unmarked on a body whose map is not nearly an isometry.
-fn are_limbs_unmarked(
-    start: Start<'_>,
-    own: &OwnConeOptions,
-    monitor: &mut dyn Monitor,
-) -> Result<bool, Cancelled> {
-    if own.ends == 0 || start.map.mean_log < own.least_mean_log || monitor.wants_result() {
-        return Ok(false);
-    }
+/// Whether the landmarks leave limbs unmarked.
+fn are_limbs_unmarked(start: &Start<'_>, monitor: &mut dyn Monitor) -> Result<bool, Cancelled> {
     let looking = &mut Portion::new(monitor, 0.0, 0.0);
-    Ok(unmarked_ends(start, REMOTE, own, looking)? >= UNMARKED)
+    Ok(!looking.wants_result() && start.unmarked_ends(REMOTE, looking)? >= UNMARKED)
 }
 
 /// The map whose rounds begin with matched ends, where that is better than the start.
 fn led<'a>(
-    start: Start<'_>,
+    start: &Start<'_>,
     owners: Owners<'a>,
-    multilevel: &MultilevelOptions,
-    own: &OwnConeOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<OwnCones<'a>>, Cancelled> {
-    let pairs = matched(start.full, &mut Portion::new(monitor, 0.0, FOUND).unseen())?;
+    let pairs = matched(start.full(), &mut Portion::new(monitor, 0.0, FOUND).unseen())?;
     let beginning = &mut Portion::new(monitor, FOUND, 1.0);
-    let led = own_cones::add_at(start, owners, &pairs, multilevel, own, beginning)?;
-    Ok(led.filter(|led| led.mean_log() < start.map.mean_log))
+    let led = own_cones::add_at(start, owners, &pairs, beginning)?;
+    Ok(led.filter(|led| led.mean_log() < start.mean_log()))
 }
 
 /// The pairs of ends of the best candidate beside the user's landmarks; none where nothing is found.

@@ -6,7 +6,7 @@ use super::attempt::{
 use super::borders::{BordersReport, CountedCaps, counted_caps};
 use super::{MapInput, PipelineError, PipelineOptions, Relaxation, found_ends, second_look};
 use crate::coarse_map::class_search::ClassChoice;
-use crate::coarse_map::own_cones::{self, OwnConeOptions, Owners, Rounds, Start};
+use crate::coarse_map::own_cones::{self, OwnConeInput, OwnConeOptions, Owners, Rounds, Start};
 use crate::coarse_map::unrelaxed::{Unrelaxed, solve_unrelaxed};
 use crate::coarse_map::{LandmarkedMesh, coarse_levels};
 use crate::landmarks::Landmarks;
@@ -145,18 +145,23 @@ fn solve(
     }
     // A search with ends of limbs would go back to the best class.
     let ends = if options.class == ClassChoice::Best { options.own_cones.ends } else { 0 };
-    let own_options = OwnConeOptions { ends, ..options.own_cones };
-    let inputs = [input.source, input.target];
-    let start = Start { inputs, full, map: &map, vertices, is_one_body: false };
-    let meshes = [Rounds::new(&own_options), Rounds::new(&own_options)];
-    let levels = [Rounds::new(&own_options), Rounds::new(&own_options)];
+    let own = &OwnConeOptions { ends, ..options.own_cones };
+    let start = Start::new(OwnConeInput {
+        inputs: [input.source, input.target],
+        full,
+        map: &map,
+        vertices,
+        is_one_body: false,
+        multilevel: &options.multilevel,
+        own,
+    });
+    let meshes = [Rounds::new(own), Rounds::new(own)];
+    let levels = [Rounds::new(own), Rounds::new(own)];
     let owners = [0, 1].map(|k| Owners { meshes: &meshes[k], levels: &levels[k] });
-    let multilevel = &options.multilevel;
-    let own = if has_own {
-        found_ends::with_own_cones(start, owners, multilevel, &own_options, monitor)?
-    } else {
-        let adding = &mut Portion::new(monitor, SEARCHED, 1.0);
-        own_cones::add(start, owners[0], multilevel, &own_options, adding)?
+    let own = match &start {
+        Some(start) if has_own => found_ends::with_own_cones(start, owners, monitor)?,
+        Some(start) => own_cones::add(start, owners[0], &mut Portion::new(monitor, SEARCHED, 1.0))?,
+        None => None,
     };
     monitor.enter(Stage::Relaxation);
     if let Some(own) = own {

@@ -7,8 +7,8 @@
 use super::attempt::{Attempt, Coarse, Solved, coarse, level_with_own};
 use super::{MapInput, PipelineError, PipelineOptions};
 use crate::coarse_map::multilevel::LevelImages;
-use crate::coarse_map::own_cones::{self, Owners, Refined, Rounds, Start};
-use crate::coarse_map::{LandmarkedMesh, coarse_levels, share_elsewhere};
+use crate::coarse_map::own_cones::{self, OwnConeInput, Owners, Refined, Rounds, Start, share_elsewhere};
+use crate::coarse_map::{LandmarkedMesh, coarse_levels};
 use crate::layout::LayoutError;
 use crate::monitor::{Monitor, Portion, Stage, unless_stopped};
 
@@ -96,9 +96,16 @@ fn turned_back(
     let both = first.images.zip(found.map.images());
     let agree = both.is_some_and(|(here, there)| share_elsewhere([&here, &there]) < ELSEWHERE);
     if !agree {
-        let (inputs, map) = ([input.source, input.target], &found.map);
-        let start = Start { inputs, full, map, vertices, is_one_body: true };
-        if let Some(refined) = with_own_cones(start, least, options, monitor)? {
+        let from = OwnConeInput {
+            inputs: [input.source, input.target],
+            full,
+            map: &found.map,
+            vertices,
+            is_one_body: true,
+            multilevel,
+            own: own_options,
+        };
+        if let Some(refined) = with_own_cones(from, least, monitor)? {
             return Ok(Some(Solved::with_own(refined, found.layout, found.search)));
         }
     }
@@ -111,21 +118,21 @@ fn turned_back(
 
 /// The map between two poses with own cones, where its mean log density on a finer level is below `least`.
 fn with_own_cones(
-    start: Start<'_>,
+    from: OwnConeInput<'_>,
     least: f64,
-    options: &PipelineOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Option<Refined>, PipelineError> {
-    let PipelineOptions { multilevel, own_cones: own_options, .. } = options;
-    let (meshes, levels) = (Rounds::new(own_options), Rounds::new(own_options));
+    let OwnConeInput { multilevel, own, .. } = from;
+    let Some(start) = Start::new(from) else { return Ok(None) };
+    let (meshes, levels) = (Rounds::new(own), Rounds::new(own));
     let owners = Owners { meshes: &meshes, levels: &levels };
     let adding = &mut Portion::new(monitor, LOOKED[2], 1.0);
-    if let Some(own) = own_cones::add(start, owners, multilevel, own_options, adding)?
-        && let Some(own) = own.on_finer_level(own_options, multilevel, adding)?
-        && own.mean_log() < least
+    if let Some(found) = own_cones::add(&start, owners, adding)?
+        && let Some(found) = found.on_finer_level(own, multilevel, adding)?
+        && found.mean_log() < least
     {
         monitor.enter(Stage::Relaxation);
-        return Ok(own.refined(multilevel, monitor)?);
+        return Ok(found.refined(multilevel, monitor)?);
     }
     Ok(None)
 }

@@ -1,7 +1,7 @@
 //! The program's own points: their choice on the source, and their insertion with their images as landmarks after the user's.
 
-use super::landmarked_mesh::LandmarkedMesh;
-use super::multilevel::LevelImages;
+use crate::coarse_map::LandmarkedMesh;
+use crate::coarse_map::multilevel::LevelImages;
 use crate::geodesic::distances;
 use crate::landmark_suggestion::{Spread, farthest_points};
 use crate::landmarks::MeshSide;

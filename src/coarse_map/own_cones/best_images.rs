@@ -4,7 +4,7 @@
 //! than [`ELSEWHERE`], the one that distorts less around the vertex is the nearer one to the truth for nine tenths of the distance (see
 //! docs/experiments.md).
 
-use super::multilevel::LevelImages;
+use crate::coarse_map::multilevel::LevelImages;
 use crate::math::scalar::{ln, max};
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};

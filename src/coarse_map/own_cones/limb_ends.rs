@@ -3,9 +3,9 @@
 //! A limb without a landmark has nothing that leads it to its partner: a map may end beside it and squeeze it into a dent. Its end is a point
 //! that both bodies have, and its distances to the landmarks tell which one.
 
-use super::landmarked_mesh::LandmarkedMesh;
-use super::multilevel::LevelImages;
 use super::own_points::OwnPair;
+use crate::coarse_map::LandmarkedMesh;
+use crate::coarse_map::multilevel::LevelImages;
 use crate::geodesic::ManyDistances;
 use crate::landmark_suggestion::tips;
 use crate::landmarks::MeshSide;
@@ -49,50 +49,52 @@ impl End {
     }
 }
 
-/// Ends of limbs without a landmark, of at most `most` on each mesh, that fit each other best: those farthest from all landmarks first.
-pub(super) fn pairs(
-    full: &[LandmarkedMesh; 2],
-    present: &LevelImages,
-    most: usize,
-    monitor: &mut dyn Monitor,
-) -> Result<Vec<OwnPair>, Cancelled> {
-    let source = ends(MeshSide::Source, full, present, most, monitor)?;
-    let target = ends(MeshSide::Target, full, present, most, monitor)?;
-    let best = |of: &End, others: &[End]| {
-        let misfits = others.iter().map(|other| of.misfit(other)).enumerate();
-        misfits.min_by(|a, b| a.1.total_cmp(&b.1))
-    };
-    let partner = |s: usize| {
-        let (t, misfit) = best(&source[s], &target)?;
-        let (back, _) = best(&target[t], &source)?;
-        (back == s && misfit < FITS).then(|| (min(source[s].apart(), target[t].apart()), s, t))
-    };
-    let mut found: Vec<(f64, usize, usize)> = (0..source.len()).filter_map(partner).collect();
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let on_mesh = |side: MeshSide, end: &End| present.levels[side].vertices[end.vertex];
-    let pair = |&(_, s, t): &(f64, usize, usize)| OwnPair {
-        source: on_mesh(MeshSide::Source, &source[s]),
-        target: SurfacePoint::at_vertex(
-            &full[MeshSide::Target].refined.mesh,
-            on_mesh(MeshSide::Target, &target[t]),
-        ),
-    };
-    Ok(found.iter().map(pair).collect())
-}
+/// Ends of limbs without a landmark on the coarse levels of both meshes.
+pub(super) struct LimbEnds([Vec<End>; 2]);
 
-/// The number of ends of limbs, of at most `most` without a landmark, that are farther than `distance` from all landmarks: that of the mesh with
-/// fewer. The area is 1.
-pub(super) fn unmarked(
-    full: &[LandmarkedMesh; 2],
-    present: &LevelImages,
-    most: usize,
-    distance: f64,
-    monitor: &mut dyn Monitor,
-) -> Result<usize, Cancelled> {
-    let source = ends(MeshSide::Source, full, present, most, monitor)?;
-    let target = ends(MeshSide::Target, full, present, most, monitor)?;
-    let remote = |ends: &[End]| ends.iter().filter(|end| end.apart() > distance).count();
-    Ok(remote(&source).min(remote(&target)))
+impl LimbEnds {
+    /// The most remote ends, at most `most` on each mesh.
+    pub(super) fn find(
+        full: &[LandmarkedMesh; 2],
+        present: &LevelImages,
+        most: usize,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let source = ends(MeshSide::Source, full, present, most, monitor)?;
+        Ok(Self([source, ends(MeshSide::Target, full, present, most, monitor)?]))
+    }
+
+    /// The ends that fit each other best: those farthest from all landmarks first.
+    pub(super) fn pairs(&self, full: &[LandmarkedMesh; 2], present: &LevelImages) -> Vec<OwnPair> {
+        let Self([source, target]) = self;
+        let best = |of: &End, others: &[End]| {
+            let misfits = others.iter().map(|other| of.misfit(other)).enumerate();
+            misfits.min_by(|a, b| a.1.total_cmp(&b.1))
+        };
+        let partner = |s: usize| {
+            let (t, misfit) = best(&source[s], target)?;
+            let (back, _) = best(&target[t], source)?;
+            (back == s && misfit < FITS).then(|| (min(source[s].apart(), target[t].apart()), s, t))
+        };
+        let mut found: Vec<(f64, usize, usize)> = (0..source.len()).filter_map(partner).collect();
+        found.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let on_mesh = |side: MeshSide, end: &End| present.levels[side].vertices[end.vertex];
+        let pair = |&(_, s, t): &(f64, usize, usize)| OwnPair {
+            source: on_mesh(MeshSide::Source, &source[s]),
+            target: SurfacePoint::at_vertex(
+                &full[MeshSide::Target].refined.mesh,
+                on_mesh(MeshSide::Target, &target[t]),
+            ),
+        };
+        found.iter().map(pair).collect()
+    }
+
+    /// The number of ends that are farther than `distance` from all landmarks: that of the mesh with fewer. The area is 1.
+    pub(super) fn unmarked(&self, distance: f64) -> usize {
+        let remote = |ends: &Vec<End>| ends.iter().filter(|end| end.apart() > distance).count();
+        let [source, target] = self.0.each_ref().map(remote);
+        source.min(target)
+    }
 }
 
 /// The ends of limbs of a level that are skin and lie apart from all landmarks, at most `most`: the most remote.
@@ -149,7 +151,7 @@ mod tests {
     /// The places of the pairs that are found with these landmarks, on both meshes scaled to area 1.
     fn found(meshes: [&SurfaceMesh; 2], landmarks: [&[VertexId]; 2]) -> Vec<[DVec3; 2]> {
         let (full, present) = with_levels(meshes, landmarks);
-        let pairs = pairs(&full, &present, 12, &mut Silent).unwrap();
+        let pairs = LimbEnds::find(&full, &present, 12, &mut Silent).unwrap().pairs(&full, &present);
         let [source, target] = full.each_ref().map(|full| &full.refined.mesh);
         pairs.iter().map(|pair| [source.positions()[pair.source], pair.target.position(target)]).collect()
     }
@@ -203,7 +205,7 @@ mod tests {
         let count = |names: [&[&str]; 2], distance| {
             let [source, target] = [0, 1].map(|side| only(names[side], side));
             let (full, present) = with_levels(meshes, [&source, &target]);
-            unmarked(&full, &present, 12, distance, &mut Silent).unwrap()
+            LimbEnds::find(&full, &present, 12, &mut Silent).unwrap().unmarked(distance)
         };
         let far = 0.3;
         assert!(count([&trunk, &trunk], far) >= 4);
