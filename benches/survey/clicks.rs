@@ -2,7 +2,7 @@
 
 use crate::arguments::Arguments;
 use crate::case::{Case, Make, map_all};
-use crate::clicked::{Random, moved};
+use crate::clicked::{Random, corner, moved};
 use crate::table::{compare, header};
 use conemap::mesh::SurfacePoint;
 use conemap::mesh::insertion::insert;
@@ -75,7 +75,7 @@ const PLACES: [(&str, [f64; 3]); 6] = [
 ];
 
 fn at(vertex: &SurfacePoint, [own, next, last]: [f64; 3]) -> SurfacePoint {
-    let k = (0..3).find(|&k| vertex.barycentric[k] > 0.5).expect("a vertex");
+    let k = corner(vertex);
     let mut barycentric = [0.0; 3];
     (barycentric[k], barycentric[(k + 1) % 3], barycentric[(k + 2) % 3]) = (own, next, last);
     SurfacePoint { face: vertex.face, barycentric }

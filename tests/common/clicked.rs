@@ -7,14 +7,18 @@ use conemap::mesh::{SurfaceMesh, SurfacePoint};
 /// Moves each point, which is a vertex, to a random point of a random face beside it.
 pub fn moved(mesh: &SurfaceMesh, points: &[SurfacePoint], random: &mut Random) -> Vec<SurfacePoint> {
     let place = |point: &SurfacePoint| {
-        let k = (0..3).find(|&k| point.barycentric[k] > 0.5).expect("a vertex");
-        let v = mesh.triangles()[point.face][k];
+        let v = mesh.triangles()[point.face][corner(point)];
         let faces: Vec<_> = mesh.star(v).map(|h| h.face()).collect();
         let face = faces[(random.share() * faces.len() as f64) as usize];
         let (a, b) = (random.share().sqrt(), random.share());
         SurfacePoint { face, barycentric: [1.0 - a, a * (1.0 - b), a * b] }
     };
     points.iter().map(place).collect()
+}
+
+/// The corner of its face at which a point lies that is a vertex: 0, 1 or 2.
+pub fn corner(vertex: &SurfacePoint) -> usize {
+    (0..3).find(|&k| vertex.barycentric[k] > 0.5).expect("a vertex")
 }
 
 /// A generator of random clicks.

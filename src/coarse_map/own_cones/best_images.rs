@@ -110,7 +110,7 @@ struct Distorted {
 }
 
 /// The mean log density by area around each vertex of the source level; infinite where there is no skin.
-fn mean_log_around(images: &LevelImages) -> TiVec<VertexId, f64> {
+pub(super) fn mean_log_around(images: &LevelImages) -> TiVec<VertexId, f64> {
     let [source, target] = &images.levels;
     let mesh = &source.mesh;
     let [weights, _] = images.weights();

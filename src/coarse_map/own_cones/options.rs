@@ -23,7 +23,10 @@ pub struct OwnConeOptions {
     pub rounds: usize,
     /// Stops after this many rounds without a gain.
     pub patience: usize,
-    /// Further rounds between two poses of one body, whose points are placed by the map of a finer level; 0 for none.
+    /// Further rounds between two poses of one body with few landmarks, whose points are placed by maps of the first level on which patches are
+    /// registered; 0 for none.
+    pub pose_rounds: usize,
+    /// Rounds after these, whose points are placed by the map of a finer level still; 0 for none.
     pub finer_rounds: usize,
     /// Least number of vertices of that finer level.
     pub finer_vertices: usize,
@@ -50,8 +53,9 @@ impl Default for OwnConeOptions {
             most_pose_landmarks: 40,
             // The mean log density of a map of energy 4.01.
             least_mean_log: 0.0025,
-            rounds: 6,
+            rounds: 8,
             patience: 2,
+            pose_rounds: 3,
             // With one a leg of a horse stayed turned, with two none did; with levels of 1200 vertices two of three pairs were farther
             // from the truth, for a twentieth less time (see docs/experiments.md).
             finer_rounds: 2,
@@ -65,7 +69,12 @@ impl Default for OwnConeOptions {
 impl OwnConeOptions {
     /// The number of rounds with points far from all others, at most.
     pub(super) fn all_rounds(&self) -> usize {
-        self.rounds + self.finer_rounds
+        self.rounds + self.rounds_of_poses()
+    }
+
+    /// The number of rounds on finer levels, at most.
+    pub(super) fn rounds_of_poses(&self) -> usize {
+        self.pose_rounds + self.finer_rounds
     }
 
     /// The options for ends of limbs. Twists change nothing for them on 28 pairs of animals, beyond what another drawing changes; with one
@@ -76,7 +85,7 @@ impl OwnConeOptions {
 
     /// The options for poses with many landmarks: what finer rounds gain was seen with few landmarks alone.
     pub(super) fn of_poses(&self) -> Self {
-        Self { finer_rounds: 0, ..*self }
+        Self { pose_rounds: 0, finer_rounds: 0, ..*self }
     }
 
     /// The options for points whose class is known.
