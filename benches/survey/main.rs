@@ -85,7 +85,7 @@ const SURVEYS: &[Survey] = &[
     },
     Survey {
         name: "few",
-        about: "five and eight of the landmarks, drawn at random, compared with all; --seeds N",
+        about: "five and eight of the landmarks, drawn at random, compared with all; --seed N, --seeds N, --landmarks N",
         run: few::drawn,
     },
     Survey {
