@@ -5,10 +5,11 @@
 //! A cone surface with few cones is a poor image of a body with many limbs, and the descent of a map over it ends in a poor
 //! minimum. So points are added and carried to the target by the present map; the map is solved again with all as cones.
 //! Every round takes fresh points, so that those of the round before are free to move. Between two poses of one body the last rounds place
-//! their points by a map that was refined first: on finer levels patches are registered.
+//! their points by maps that were refined first (`finer_levels`): there patches are registered.
 
 mod best_images;
 mod distance_guess;
+mod finer_levels;
 mod found;
 mod limb_ends;
 mod options;

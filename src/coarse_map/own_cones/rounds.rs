@@ -1,6 +1,6 @@
 //! Rounds of own cones, one after the other: the points of each are placed by the maps before it.
 
-use super::best_images::{SeenMaps, mean_log_around, share_elsewhere};
+use super::best_images::SeenMaps;
 use super::distance_guess::{self, Guess};
 use super::own_points::{PointChoice, apart, pairs, with};
 use super::owners::Cells;
@@ -48,14 +48,14 @@ pub fn add_at<'a>(
 }
 
 /// Rounds of own landmarks, one after the other.
-struct Adding<'s, 'a> {
-    start: &'s Start<'s>,
-    own: &'s OwnConeOptions,
+pub(super) struct Adding<'s, 'a> {
+    pub(super) start: &'s Start<'s>,
+    pub(super) own: &'s OwnConeOptions,
     cells: Cells<'a>,
     /// The source's vertices that were own points in the round before.
     before: Vec<VertexId>,
     /// Whether patches of both meshes fit each other; `None` before they were registered.
-    is_one_body: Option<bool>,
+    pub(super) is_one_body: Option<bool>,
 }
 
 /// The maps of the rounds so far.
@@ -65,19 +65,9 @@ struct SoFar<'a> {
     better: Vec<OwnCones<'a>>,
 }
 
-/// Rounds whose points are placed by maps of one finer level.
-struct FinerRounds {
-    /// Least number of vertices of that level.
-    vertices: usize,
-    /// Points in each round, at most, with those in gaps.
-    most: usize,
-    /// The cells that later rounds need.
-    kept: usize,
-}
-
 /// What a round's map is searched and relaxed with.
 #[derive(Clone, Copy)]
-struct Effort {
+pub(super) struct Effort {
     search: SearchOptions,
     relaxation: MapRelaxationOptions,
 }
@@ -122,12 +112,12 @@ impl<'s, 'a> Adding<'s, 'a> {
     }
 
     /// Whether a round may come before the last `kept` ones.
-    fn may_go_on(&self, kept: usize, monitor: &mut dyn Monitor) -> bool {
+    pub(super) fn may_go_on(&self, kept: usize, monitor: &mut dyn Monitor) -> bool {
         self.cells.len() > kept && !monitor.wants_result()
     }
 
     /// Leaves the cells of rounds that were not needed empty, but for the last ones.
-    fn leave_all_but(&mut self, last: usize) {
+    pub(super) fn leave_all_but(&mut self, last: usize) {
         while self.cells.len() > last {
             self.cells.next();
         }
@@ -240,112 +230,6 @@ impl<'s, 'a> Adding<'s, 'a> {
         }
     }
 
-    /// The best map on the first level on which patches are registered, where they tell that it is between two poses of one body; `None` where
-    /// there are no rounds on finer levels.
-    fn of_one_body(
-        &mut self,
-        best: Option<&OwnCones<'a>>,
-        monitor: &mut dyn Monitor,
-    ) -> Result<Option<OwnCones<'a>>, Cancelled> {
-        let Some(best) = best.filter(|best| best.map.is_of_poses()) else { return Ok(None) };
-        if self.is_one_body.is_some() || !self.may_go_on(0, monitor) {
-            return Ok(None);
-        }
-        let finer = self.finer(best.clone(), ONE_LEVEL, monitor)?;
-        let is_one_body = finer.as_ref().is_none_or(|finer| finer.map.is_of_one_body());
-        self.is_one_body = Some(is_one_body);
-        Ok(finer.filter(|_| is_one_body))
-    }
-
-    /// The last of the maps between two poses of one body, whose own points were placed by maps of finer levels.
-    ///
-    /// On the coarse level a point's image is off by about a per cent of the root of the area, and a limb may be turned a little. On finer
-    /// levels patches of both bodies are registered, which turns it back; but there the own points are held, so that fresh ones are needed.
-    fn by_finer_levels(
-        &mut self,
-        others: Vec<OwnCones<'a>>,
-        best: OwnCones<'a>,
-        monitor: &mut dyn Monitor,
-    ) -> Result<OwnCones<'a>, Cancelled> {
-        let OwnConeOptions { count, most, finer_rounds, finer_vertices, .. } = *self.own;
-        self.leave_all_but(self.own.rounds_of_poses());
-        let (mut best, mut beside) = (best, Vec::new());
-        for other in others.into_iter().filter(|other| other.map.is_of_poses()) {
-            let Some(mut other) = self.finer(other, ONE_LEVEL, monitor)? else { continue };
-            if other.mean_log() < best.mean_log() {
-                std::mem::swap(&mut other, &mut best);
-            }
-            beside.push(other);
-        }
-        let first = FinerRounds { vertices: ONE_LEVEL, most, kept: finer_rounds };
-        let placed = self.rounds_on(&first, best, &beside, monitor)?;
-        self.leave_all_but(finer_rounds);
-        if !self.may_go_on(0, monitor) {
-            return Ok(placed);
-        }
-        let Some(finer) = self.finer(placed.clone(), finer_vertices, monitor)? else { return Ok(placed) };
-        // There are no further points in gaps: each that is held keeps its error.
-        let last = FinerRounds { vertices: finer_vertices, most: count, kept: 0 };
-        self.rounds_on(&last, finer, &[], monitor)
-    }
-
-    /// Maps on one finer level whose points are placed by those before them, at each vertex by the one that distorts least around it; of all
-    /// the one that agrees best with these images. A round of few cones may turn a leg again.
-    fn rounds_on(
-        &mut self,
-        rounds: &FinerRounds,
-        best: OwnCones<'a>,
-        beside: &[OwnCones<'a>],
-        monitor: &mut dyn Monitor,
-    ) -> Result<OwnCones<'a>, Cancelled> {
-        let mut seen = SeenMaps::new(self.start.input.full[0].refined.mesh.vertex_count());
-        beside.iter().for_each(|map| seen.extend(map.map.images()));
-        let (mut last, mut before) = (best, Vec::new());
-        loop {
-            last.show(monitor);
-            seen.extend(last.map.images());
-            let Some(images) = seen.best_images() else { return Ok(last) };
-            let Some(next) = self.round_on(rounds, &last, &images, monitor)? else {
-                return Ok(nearest(&images, last, before));
-            };
-            before.push(std::mem::replace(&mut last, next));
-        }
-    }
-
-    /// The next map on a finer level, with points at these images but where they distort much ([`TRUSTED`]); `None` where there is none, or where
-    /// it is not credible ([`CREDIBLE`]).
-    fn round_on(
-        &mut self,
-        rounds: &FinerRounds,
-        last: &OwnCones<'a>,
-        images: &LevelImages,
-        monitor: &mut dyn Monitor,
-    ) -> Result<Option<OwnCones<'a>>, Cancelled> {
-        // Patches may tell that there are two bodies; their limbs are placed well enough.
-        if !last.map.is_of_poses() || !self.may_go_on(rounds.kept, monitor) {
-            return Ok(None);
-        }
-        let around = mean_log_around(images);
-        let points = self.own_points(images, |v| around[v] < TRUSTED, rounds.most, monitor)?;
-        let next = self.with_pairs(&points, self.settled(self.own.drawn_once()), monitor)?;
-        let Some(next) = next else { return Ok(None) };
-        let next = self.finer(next, rounds.vertices, monitor)?;
-        let is_credible =
-            |next: &OwnCones<'_>| next.map.is_of_poses() && next.mean_log() < CREDIBLE * last.mean_log();
-        Ok(next.filter(is_credible))
-    }
-
-    /// The same on a level with at least this many vertices ([`OwnCones::finer`]).
-    fn finer(
-        &self,
-        found: OwnCones<'a>,
-        vertices: usize,
-        monitor: &mut dyn Monitor,
-    ) -> Result<Option<OwnCones<'a>>, Cancelled> {
-        let quiet = &mut Portion::new(monitor, self.done(0.0), self.done(0.0));
-        found.finer(vertices, self.start.input.multilevel, quiet)
-    }
-
     /// The search of the next round. Between poses of one body twists are judged in every round, or legs stay turned.
     fn search(&self) -> SearchOptions {
         if self.is_one_body == Some(true) { self.own.search } else { self.own.drawn_once() }
@@ -401,7 +285,7 @@ impl<'s, 'a> Adding<'s, 'a> {
     }
 
     /// Fresh own points, of the vertices that `may` be taken, at the given images; at most `most` with those in gaps.
-    fn own_points(
+    pub(super) fn own_points(
         &self,
         images: &LevelImages,
         may: impl Fn(VertexId) -> bool,
@@ -415,20 +299,20 @@ impl<'s, 'a> Adding<'s, 'a> {
     }
 
     /// The effort of a round whose points the next round places anew.
-    fn settled(&self, search: SearchOptions) -> Effort {
+    pub(super) fn settled(&self, search: SearchOptions) -> Effort {
         let relaxation =
             MapRelaxationOptions { relative_decrease: SETTLED, ..self.start.input.multilevel.coarse };
         Effort { search, relaxation }
     }
 
     /// Progress, 0 to 1, where this share of the present round is done.
-    fn done(&self, share: f64) -> f64 {
+    pub(super) fn done(&self, share: f64) -> f64 {
         let all = self.own.all_rounds();
         ((all - self.cells.len().min(all)) as f64 + share) / all.max(1) as f64
     }
 
     /// A map with these own points; `None` where there are none, or no map.
-    fn with_pairs(
+    pub(super) fn with_pairs(
         &mut self,
         pairs: &[OwnPair],
         effort: Effort,
@@ -467,15 +351,6 @@ const WORTH: f64 = 1.03;
 /// Where a limb was turned they brought it to .92 and less; on a cat and two horses, whose limbs are right, to .97 to 1.
 const HOPEFUL: f64 = 0.96;
 
-/// A map whose points were placed by a finer level is taken where its mean log density there is below this many times that of the last one:
-/// registered patches raise it by up to 22 % on two pairs of horses and bring the map nearer to the truth. Chosen by hand.
-const CREDIBLE: f64 = 1.3;
-
-/// Own points are placed on a finer level where the mean log density around them is below this. Where a limb is turned or has slid along it is
-/// .5 and more, at bent joints as well; elsewhere between poses .05 to .3. A point that is held there holds a limb where it is. With .35 one of
-/// fourteen maps had a leg turned that others had not, without a limit the maps of a cat were farther from the truth by a third.
-const TRUSTED: f64 = 0.45;
-
 /// A map with own points at guessed images is gone on with where its mean log density is below this many times the least. Such images are
 /// inexact: on twelve pairs with 8 landmarks it was 0.9 to 1.6 times that of the other map. Of the six pairs above this limit one gained
 /// by placing the points anew (12 %).
@@ -484,9 +359,6 @@ const PROMISING: f64 = 1.2;
 /// Relative decrease of the energy in one step at which the relaxation of a round's map ends. With a tenth of it, as where the map of the user's
 /// landmarks is relaxed, maps of twelve pairs of animals are as good, and take longer; with five times as much they are worse by 1 %.
 const SETTLED: f64 = 2e-4;
-
-/// Vertices of the level on which patches tell whether both meshes are one body: the first on which they are registered.
-const ONE_LEVEL: usize = 1000;
 
 /// The image of each vertex of the source level on the target level, guessed from distances.
 fn guesses(
@@ -514,17 +386,4 @@ fn finished<'a>(
 /// Sorts maps, the one with the least mean log density last.
 fn sort(maps: &mut [OwnCones<'_>]) {
     maps.sort_by(|a, b| b.mean_log().total_cmp(&a.mean_log()));
-}
-
-/// Of these maps the one with the fewest vertices whose images are elsewhere than the given ones; of equals the later one.
-fn nearest<'a>(images: &LevelImages, last: OwnCones<'a>, before: Vec<OwnCones<'a>>) -> OwnCones<'a> {
-    let elsewhere = |map: &OwnCones<'_>| map.map.images().map_or(1.0, |own| share_elsewhere([images, &own]));
-    let (mut least, mut nearest) = (elsewhere(&last), last);
-    for map in before.into_iter().rev() {
-        let share = elsewhere(&map);
-        if share < least {
-            (least, nearest) = (share, map);
-        }
-    }
-    nearest
 }
