@@ -13,8 +13,6 @@ use crate::monitor::{Cancelled, Monitor, Portion};
 struct FinerRounds {
     /// Least number of vertices of that level.
     vertices: usize,
-    /// Points in each round, at most, with those in gaps.
-    most: usize,
     /// The cells that later rounds need.
     kept: usize,
 }
@@ -45,7 +43,7 @@ impl<'a> Adding<'_, 'a> {
         best: OwnCones<'a>,
         monitor: &mut dyn Monitor,
     ) -> Result<OwnCones<'a>, Cancelled> {
-        let OwnConeOptions { count, most, finer_rounds, finer_vertices, .. } = *self.own;
+        let OwnConeOptions { finer_rounds, finer_vertices, .. } = *self.own;
         self.leave_all_but(self.own.rounds_of_poses());
         let (mut best, mut beside) = (best, Vec::new());
         for other in others.into_iter().filter(|other| other.map.is_of_poses()) {
@@ -55,15 +53,14 @@ impl<'a> Adding<'_, 'a> {
             }
             beside.push(other);
         }
-        let first = FinerRounds { vertices: ONE_LEVEL, most, kept: finer_rounds };
+        let first = FinerRounds { vertices: ONE_LEVEL, kept: finer_rounds };
         let placed = self.rounds_on(&first, best, &beside, monitor)?;
         self.leave_all_but(finer_rounds);
         if !self.may_go_on(0, monitor) {
             return Ok(placed);
         }
         let Some(finer) = self.finer(placed.clone(), finer_vertices, monitor)? else { return Ok(placed) };
-        // There are no further points in gaps: each that is held keeps its error.
-        let last = FinerRounds { vertices: finer_vertices, most: count, kept: 0 };
+        let last = FinerRounds { vertices: finer_vertices, kept: 0 };
         self.rounds_on(&last, finer, &[], monitor)
     }
 
@@ -104,7 +101,7 @@ impl<'a> Adding<'_, 'a> {
             return Ok(None);
         }
         let around = mean_log_around(images);
-        let points = self.own_points(images, |v| around[v] < TRUSTED, rounds.most, monitor)?;
+        let points = self.own_points(images, |v| around[v] < TRUSTED, monitor)?;
         let next = self.with_pairs(&points, self.settled(self.own.drawn_once()), monitor)?;
         let Some(next) = next else { return Ok(None) };
         let next = self.finer(next, rounds.vertices, monitor)?;

@@ -280,20 +280,19 @@ impl<'s, 'a> Adding<'s, 'a> {
         search: &SearchOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<Option<OwnCones<'a>>, Cancelled> {
-        let points = self.own_points(images, may, self.own.most, monitor)?;
+        let points = self.own_points(images, may, monitor)?;
         self.with_pairs(&points, self.settled(*search), monitor)
     }
 
-    /// Fresh own points, of the vertices that `may` be taken, at the given images; at most `most` with those in gaps.
+    /// Fresh own points, of the vertices that `may` be taken, at the given images.
     pub(super) fn own_points(
         &self,
         images: &LevelImages,
         may: impl Fn(VertexId) -> bool,
-        most: usize,
         monitor: &mut dyn Monitor,
     ) -> Result<Vec<OwnPair>, Cancelled> {
         let placing = &mut Portion::new(monitor, 0.0, 0.0);
-        let OwnConeOptions { count, gap, .. } = *self.own;
+        let OwnConeOptions { count, gap, most, .. } = *self.own;
         let choice = PointChoice { count, most, gap, may: &may };
         pairs(self.start.input.full, images, &self.before, choice, placing)
     }
