@@ -3,7 +3,7 @@
 use conemap::demo;
 use conemap::landmarks::Landmarks;
 use conemap::mesh::generators::icosphere;
-use conemap::mesh::{SurfaceMesh, VertexId};
+use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Stage, Step};
 use conemap::pipeline::{MapInput, MapResult, PipelineOptions, Warning, run};
 use glam::DVec3;
@@ -143,5 +143,27 @@ fn two_animals_while_ends_of_legs_are_matched() {
         let (early, _) = asked_at(input, limit);
         let energy = early.report.distortion.energy;
         assert!(energy > least * 0.995, "asked after {limit} steps: {energy} instead of {least}");
+    }
+}
+
+/// The landmarks leave the legs unmarked; own points are placed by maps of finer levels, and all are asked for a result at some time.
+#[test]
+fn two_poses_while_own_points_are_placed_by_finer_levels() {
+    let demo = demo::build("horse-turning").unwrap();
+    let kept = ["nose", "withers", "croup", "chest", "belly"];
+    let pairs = kept.map(|name| demo.landmarks[demo.labels.iter().position(|label| label == name).unwrap()]);
+    let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &pairs).unwrap();
+    let input = MapInput::new(&demo.source, &demo.target, &landmarks);
+    let (full, all) = asked_at(input, usize::MAX);
+    assert!(full.report.own_landmarks > 0);
+    let true_map = demo::true_map("horse-turning").unwrap();
+    let off = |(v, image): (VertexId, &Option<SurfacePoint>)| {
+        image.unwrap().position(&demo.target).distance(true_map(demo.source.positions()[v]))
+    };
+    let mean = full.target_from_source.iter_enumerated().map(off).sum::<f64>()
+        / (demo.source.vertex_count() as f64 * demo.target.area().sqrt());
+    assert!(mean < 0.006, "the map is {mean} of the root of the area from the true one");
+    for share in [0.1, 0.3, 0.5] {
+        asked_at(input, all.searched + (share * (all.relaxed - all.searched) as f64) as usize);
     }
 }
