@@ -3,7 +3,7 @@
 //! On the coarse level a point's image is off by about a per cent of the root of the area, and a limb may be turned. On finer levels patches of
 //! both bodies are registered, which turns it back; but there the own points are held, so that fresh ones are needed.
 
-use super::best_images::{SeenMaps, mean_log_around, share_elsewhere};
+use super::best_images::{SeenMaps, mean_log_around};
 use super::rounds::Adding;
 use super::{OwnConeOptions, OwnCones};
 use crate::coarse_map::multilevel::LevelImages;
@@ -64,8 +64,8 @@ impl<'a> Adding<'_, 'a> {
         self.rounds_on(&last, finer, &[], monitor)
     }
 
-    /// Maps on one finer level whose points are placed by those before them, at each vertex by the one that distorts least around it; of all
-    /// the one that agrees best with these images. A round of few cones may turn a leg again.
+    /// The last of maps on one finer level whose points are placed by those before them, at each vertex by the one that distorts least around it; an
+    /// earlier one where that distorts less than it where they differ: a round may turn a leg again.
     fn rounds_on(
         &mut self,
         rounds: &FinerRounds,
@@ -75,16 +75,19 @@ impl<'a> Adding<'_, 'a> {
     ) -> Result<OwnCones<'a>, Cancelled> {
         let mut seen = SeenMaps::new(self.start.input.full[0].refined.mesh.vertex_count());
         beside.iter().for_each(|map| seen.extend(map.map.images()));
+        let begun = seen.count();
         let (mut last, mut before) = (best, Vec::new());
-        loop {
+        while let Some(images) = last.map.images() {
             last.show(monitor);
-            seen.extend(last.map.images());
-            let Some(images) = seen.best_images() else { return Ok(last) };
-            let Some(next) = self.round_on(rounds, &last, &images, monitor)? else {
-                return Ok(nearest(&images, last, before));
-            };
+            seen.add(images);
+            let Some(images) = seen.best_images() else { break };
+            let Some(next) = self.round_on(rounds, &last, &images, monitor)? else { break };
             before.push(std::mem::replace(&mut last, next));
         }
+        Ok(match seen.last_good(begun).map(|k| k - begun) {
+            Some(k) if k < before.len() => before.swap_remove(k),
+            _ => last,
+        })
     }
 
     /// The next map on a finer level, with points at these images but where they distort much ([`TRUSTED`]); `None` where there is none, or where
@@ -133,16 +136,3 @@ const TRUSTED: f64 = 0.45;
 
 /// Vertices of the level on which patches tell whether both meshes are one body: the first on which they are registered.
 const ONE_LEVEL: usize = 1000;
-
-/// Of these maps the one with the fewest vertices whose images are elsewhere than the given ones; of equals the later one.
-fn nearest<'a>(images: &LevelImages, last: OwnCones<'a>, before: Vec<OwnCones<'a>>) -> OwnCones<'a> {
-    let elsewhere = |map: &OwnCones<'_>| map.map.images().map_or(1.0, |own| share_elsewhere([images, &own]));
-    let (mut least, mut nearest) = (elsewhere(&last), last);
-    for map in before.into_iter().rev() {
-        let share = elsewhere(&map);
-        if share < least {
-            (least, nearest) = (share, map);
-        }
-    }
-    nearest
-}
