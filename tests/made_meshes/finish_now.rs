@@ -1,12 +1,13 @@
 //! Tests that a map that is asked for before its relaxation ends is whole and certified at any time.
 
-use conemap::demo;
+use conemap::demo::{self, Demo};
 use conemap::landmarks::Landmarks;
 use conemap::mesh::generators::icosphere;
-use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use conemap::mesh::{SurfaceMesh, VertexId};
 use conemap::monitor::{Cancelled, Monitor, Stage, Step};
-use conemap::pipeline::{MapInput, MapResult, PipelineOptions, Warning, run};
+use conemap::pipeline::{GroundTruth, MapInput, MapResult, PipelineOptions, Warning, run};
 use glam::DVec3;
+use typed_index_collections::TiVec;
 
 /// A monitor that wants the result from the n-th step on.
 #[derive(Default)]
@@ -121,18 +122,22 @@ fn two_animals_at_a_few_times() {
     assert!(energies[0] > 1.002 * energies[3], "{energies:?}");
 }
 
+/// The number of the landmark with this label.
+fn place(demo: &Demo, name: &str) -> usize {
+    demo.labels.iter().position(|label| label == name).unwrap()
+}
+
 /// The landmarks are on the trunk and the head, so that the ends of legs are matched first, and become cones of the program's own.
 #[test]
 fn two_animals_while_ends_of_legs_are_matched() {
     let demo = demo::build("horse-cat").unwrap();
     let kept = ["nose", "withers", "croup", "chest", "belly", "left flank"];
-    let place = |name| demo.labels.iter().position(|label| label == name).unwrap();
-    let pairs = kept.map(|name| demo.landmarks[place(name)]);
+    let pairs = kept.map(|name| demo.landmarks[place(&demo, name)]);
     let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &pairs).unwrap();
     let input = MapInput::new(&demo.source, &demo.target, &landmarks);
     let (full, all) = asked_at(input, usize::MAX);
     assert!(full.report.own_landmarks > 0);
-    let foot = place("right hind foot");
+    let foot = place(&demo, "right hind foot");
     let [from, onto] = demo.landmarks[foot].map(VertexId);
     let image = full.target_from_source[from].unwrap().position(&demo.target);
     let off = image.distance(demo.target.positions()[onto]) / demo.target.area().sqrt();
@@ -146,22 +151,19 @@ fn two_animals_while_ends_of_legs_are_matched() {
     }
 }
 
-/// The landmarks leave the legs unmarked; own points are placed by maps of finer levels, and all are asked for a result at some time.
+/// The landmarks leave the legs unmarked. The result is asked for at three times while own points are placed by maps of finer levels.
 #[test]
 fn two_poses_while_own_points_are_placed_by_finer_levels() {
     let demo = demo::build("horse-turning").unwrap();
-    let kept = ["nose", "withers", "croup", "chest", "belly"];
-    let pairs = kept.map(|name| demo.landmarks[demo.labels.iter().position(|label| label == name).unwrap()]);
+    let pairs = ["nose", "withers", "croup", "chest", "belly"].map(|name| demo.landmarks[place(&demo, name)]);
     let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &pairs).unwrap();
-    let input = MapInput::new(&demo.source, &demo.target, &landmarks);
+    let true_map = demo::true_map("horse-turning").unwrap();
+    let images: TiVec<VertexId, _> = demo.source.positions().iter().map(|&p| Some(true_map(p))).collect();
+    let ground_truth = GroundTruth::Images(&images);
+    let input = MapInput { ground_truth, ..MapInput::new(&demo.source, &demo.target, &landmarks) };
     let (full, all) = asked_at(input, usize::MAX);
     assert!(full.report.own_landmarks > 0);
-    let true_map = demo::true_map("horse-turning").unwrap();
-    let off = |(v, image): (VertexId, &Option<SurfacePoint>)| {
-        image.unwrap().position(&demo.target).distance(true_map(demo.source.positions()[v]))
-    };
-    let mean = full.target_from_source.iter_enumerated().map(off).sum::<f64>()
-        / (demo.source.vertex_count() as f64 * demo.target.area().sqrt());
+    let mean = full.report.ground_truth.unwrap().mean;
     assert!(mean < 0.006, "the map is {mean} of the root of the area from the true one");
     for share in [0.1, 0.3, 0.5] {
         asked_at(input, all.searched + (share * (all.relaxed - all.searched) as f64) as usize);

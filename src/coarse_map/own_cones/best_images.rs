@@ -29,16 +29,32 @@ const LEAST_AREA: f64 = 1e-6;
 /// The share of the vertices of the first map's source level, 0 to 1, whose images under both maps are different ones, of those that the other
 /// source level has as well; 1 where there are none. The maps are between levels of the same two meshes.
 pub fn share_elsewhere([one, other]: [&LevelImages; 2]) -> f64 {
-    let place = |map: &LevelImages, v: VertexId| map.target_from_source[v].position(&map.levels[1].mesh);
-    let [from, to] = [one, other].map(|map| &map.levels[0].vertices);
-    let (mut common, mut elsewhere) = (0, 0);
-    for (v, full) in from.iter_enumerated() {
-        if let Ok(w) = to.binary_search(full) {
-            common += 1;
-            elsewhere += usize::from(place(one, v).distance(place(other, w)) > ELSEWHERE);
-        }
+    let (mut all, mut elsewhere) = (0, 0);
+    for vertex in common([one, other]) {
+        all += 1;
+        elsewhere += usize::from(vertex.is_elsewhere);
     }
-    if common > 0 { elsewhere as f64 / common as f64 } else { 1.0 }
+    if all > 0 { elsewhere as f64 / all as f64 } else { 1.0 }
+}
+
+/// A vertex that the source levels of two maps have.
+struct Common {
+    /// Its number on the source mesh.
+    full: VertexId,
+    /// Its numbers on both levels.
+    on_levels: [VertexId; 2],
+    /// Whether its images under both maps are different ones.
+    is_elsewhere: bool,
+}
+
+/// The vertices that the source levels of both maps have.
+fn common<'a>([one, other]: [&'a LevelImages; 2]) -> impl Iterator<Item = Common> + 'a {
+    let place = |map: &LevelImages, v: VertexId| map.target_from_source[v].position(&map.levels[1].mesh);
+    one.levels[0].vertices.iter_enumerated().filter_map(move |(v, &full)| {
+        let w = other.levels[0].vertices.binary_search(&full).ok()?;
+        let is_elsewhere = place(one, v).distance(place(other, w)) > ELSEWHERE;
+        Some(Common { full, on_levels: [v, w], is_elsewhere })
+    })
 }
 
 /// Maps of coarse levels of the same two meshes.
@@ -89,17 +105,10 @@ impl SeenMaps {
     /// Whether a map distorts clearly more than another one where the images of both are elsewhere.
     fn is_worse(&self, one: usize, other: usize) -> bool {
         let [one, other] = [one, other].map(|k| &self.maps[k]);
-        let place = |map: &SeenMap, v: VertexId| {
-            map.images.target_from_source[v].position(&map.images.levels[1].mesh)
-        };
         let mut sums = [0.0; 2];
-        let known =
-            one.images.levels[0].vertices.iter_enumerated().filter(|(_, full)| full.index() < self.known);
-        for (v, full) in known {
-            let Ok(w) = other.images.levels[0].vertices.binary_search(full) else { continue };
+        for Common { full, on_levels: [v, w], is_elsewhere } in common([&one.images, &other.images]) {
             let around = [one.around[v], other.around[w]];
-            if around.iter().all(|log| log.is_finite()) && place(one, v).distance(place(other, w)) > ELSEWHERE
-            {
+            if is_elsewhere && full.index() < self.known && around.iter().all(|log| log.is_finite()) {
                 sums = [sums[0] + around[0], sums[1] + around[1]];
             }
         }

@@ -104,8 +104,8 @@ impl<'a> Adding<'_, 'a> {
             return Ok(None);
         }
         let around = mean_log_around(images);
-        let points = self.own_points(images, |v| around[v] < TRUSTED, monitor)?;
-        let next = self.with_pairs(&points, self.settled(self.own.drawn_once()), monitor)?;
+        let search = self.own.drawn_once();
+        let next = self.round_among(|v| around[v] < TRUSTED, images, &search, monitor)?;
         let Some(next) = next else { return Ok(None) };
         let next = self.finer(next, rounds.vertices, monitor)?;
         let is_credible =

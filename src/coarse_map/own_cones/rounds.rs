@@ -67,7 +67,7 @@ struct SoFar<'a> {
 
 /// What a round's map is searched and relaxed with.
 #[derive(Clone, Copy)]
-pub(super) struct Effort {
+struct Effort {
     search: SearchOptions,
     relaxation: MapRelaxationOptions,
 }
@@ -107,7 +107,9 @@ impl<'s, 'a> Adding<'s, 'a> {
         // The next round takes the levels of the last map.
         let mut seen = SeenMaps::new(full[0].refined.mesh.vertex_count());
         better.iter().for_each(|map| seen.extend(map.map.images()));
-        better.last().iter().for_each(|best| best.show(monitor));
+        if let Some(best) = better.last() {
+            best.show(monitor);
+        }
         self.further_rounds(SoFar { seen, better }, monitor)
     }
 
@@ -273,7 +275,7 @@ impl<'s, 'a> Adding<'s, 'a> {
     }
 
     /// The same with points of the vertices that `may` be taken.
-    fn round_among(
+    pub(super) fn round_among(
         &mut self,
         may: impl Fn(VertexId) -> bool,
         images: &LevelImages,
@@ -285,7 +287,7 @@ impl<'s, 'a> Adding<'s, 'a> {
     }
 
     /// Fresh own points, of the vertices that `may` be taken, at the given images.
-    pub(super) fn own_points(
+    fn own_points(
         &self,
         images: &LevelImages,
         may: impl Fn(VertexId) -> bool,
@@ -298,7 +300,7 @@ impl<'s, 'a> Adding<'s, 'a> {
     }
 
     /// The effort of a round whose points the next round places anew.
-    pub(super) fn settled(&self, search: SearchOptions) -> Effort {
+    fn settled(&self, search: SearchOptions) -> Effort {
         let relaxation =
             MapRelaxationOptions { relative_decrease: SETTLED, ..self.start.input.multilevel.coarse };
         Effort { search, relaxation }
@@ -311,7 +313,7 @@ impl<'s, 'a> Adding<'s, 'a> {
     }
 
     /// A map with these own points; `None` where there are none, or no map.
-    pub(super) fn with_pairs(
+    fn with_pairs(
         &mut self,
         pairs: &[OwnPair],
         effort: Effort,
