@@ -177,10 +177,25 @@ describe('what is kept', () => {
     expect(await records()).toEqual([]);
   });
 
+  test('is a mesh at once: its page may be closed in the same second', async () => {
+    const tab = await new Tab().visit();
+    tab.store.dispatch({ kind: 'mesh', side: 0, file: mesh('cat.off') });
+    await vi.waitFor(async () => {
+      expect(await meshNames()).toEqual(['cat.off']);
+    });
+    tab.store.dispatch({ kind: 'mesh', side: 1, file: mesh('lion.off') });
+    await vi.waitFor(async () => {
+      expect(await meshNames()).toEqual(['cat.off', 'lion.off']);
+    });
+  });
+
   test('is every step, soon after it and gathered with those of the same moment', async () => {
     const written = vi.spyOn(Database.prototype, 'write');
     const tab = await new Tab(undefined, { delay: 5 }).visit();
     tab.store.dispatch(...CAT_AND_LION);
+    await tab.keeper.flush();
+    expect(written).toHaveBeenCalledTimes(1);
+    written.mockClear();
     tab.does(pick(7));
     await vi.waitFor(() => {
       expect(written).toHaveBeenCalledTimes(1);

@@ -372,8 +372,13 @@ export class Keeper {
   }
 
   #follow(state: State, previous: State): void {
-    if (this.#isMade(state) && !isKept(state, previous)) {
-      this.#schedule();
+    if (!this.#isMade(state) || isKept(state, previous)) {
+      return;
+    }
+    this.#schedule();
+    // Writing a mesh takes long, so that it is not done before the page has closed unless it begins now.
+    if (state.meshes !== previous.meshes) {
+      void this.flush();
     }
   }
 
