@@ -64,7 +64,7 @@ impl Laid {
     /// Makes the layout; `None` in a plain checkout.
     fn new() -> Option<Self> {
         let layout = CAT_AND_LION.as_ref()?.layout();
-        let surface = Arc::new(ConeSurface::of_layout(&layout).expect("a cone surface"));
+        let surface = Arc::new(ConeSurface::of_layout(&layout));
         Some(Self { layout, surface })
     }
 

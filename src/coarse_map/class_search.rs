@@ -157,10 +157,6 @@ impl Finalists<'_, '_> {
                 near.into_iter().for_each(|landmark| self.blame[landmark] += 1.0);
                 Ok(None)
             }
-            Err(MapError::DegenerateBase { landmarks }) => {
-                landmarks.into_iter().for_each(|landmark| self.blame[landmark] += 1.0);
-                Ok(None)
-            }
             Err(_) => Ok(None),
         }
     }

@@ -80,7 +80,7 @@ pub fn solve_coarse<'a>(
     options: &MultilevelOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<CoarseMap<'a>, MapError> {
-    let surface = Arc::new(ConeSurface::of_layout(layout)?);
+    let surface = Arc::new(ConeSurface::of_layout(layout));
     let levels = parametrised_levels(meshes, layout, &surface, options, monitor)?;
     let mut map = CoarseMap {
         surface,

@@ -30,7 +30,7 @@ pub fn solve_unrelaxed(
     options: &MultilevelOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Unrelaxed, MapError> {
-    let surface = Arc::new(ConeSurface::of_layout(layout)?);
+    let surface = Arc::new(ConeSurface::of_layout(layout));
     let coarse = &mut Portion::new(monitor, 0.0, 0.1);
     let mut levels = parametrised_levels(meshes, layout, &surface, options, coarse)?;
     for (k, level) in levels.iter_mut().enumerate() {

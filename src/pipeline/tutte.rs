@@ -56,7 +56,7 @@ struct Proven {
 
 impl StraightPatches {
     fn new(layout: BaseLayout, monitor: &mut dyn Monitor) -> Result<Self, PipelineError> {
-        let surface = Arc::new(ConeSurface::of_layout(&layout)?);
+        let surface = Arc::new(ConeSurface::of_layout(&layout));
         let source = embed_patches(&layout.source, &surface, &mut Portion::new(monitor, 0.0, 0.5))?;
         let target = embed_patches(&layout.target, &surface, &mut Portion::new(monitor, 0.5, 1.0))?;
         Ok(Self { layout, surface, embeddings: [source, target] })

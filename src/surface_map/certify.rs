@@ -52,7 +52,7 @@ mod tests {
         let landmarks = Landmarks::from_vertices(&mesh, &mesh, &pairs).unwrap();
         let layout =
             layout::joint([&mesh, &mesh], &landmarks, &LayoutOptions::default(), &mut Silent).unwrap();
-        let surface = Arc::new(ConeSurface::of_layout(&layout).unwrap());
+        let surface = Arc::new(ConeSurface::of_layout(&layout));
         let (embedding, _) =
             embed(&layout.source, &surface, &InitialOptions::default(), &mut Silent).unwrap();
         (layout.source, surface, embedding)

@@ -9,17 +9,6 @@ pub enum MapError {
     /// The user asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// Three landmarks lie so that their base triangle is degenerate.
-    #[error(
-        "the landmarks {}, {} and {} (the first is 1) lie on one line on both meshes: move one of them",
-        landmarks[0] + 1,
-        landmarks[1] + 1,
-        landmarks[2] + 1
-    )]
-    DegenerateBase {
-        /// The landmarks, 0-based.
-        landmarks: [usize; 3],
-    },
     /// Vertices could not be collapsed.
     #[error("{left} vertices could not be simplified away")]
     NotCoarsened {

@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// The mean log density of a layout's map after a few rounds of relaxation.
 pub fn mean_log(layout: &BaseLayout, monitor: &mut dyn Monitor) -> Result<Option<f64>, Cancelled> {
     let map = |monitor: &mut dyn Monitor| -> Result<f64, MapError> {
-        let surface = Arc::new(ConeSurface::of_layout(layout)?);
+        let surface = Arc::new(ConeSurface::of_layout(layout));
         let mut side = |patched: &PatchedMesh| -> Result<_, MapError> {
             let (start, _) = embed(patched, &surface, &InitialOptions::default(), monitor)?;
             Ok(relax(patched.parametrised(&start), &surface, &FlatRelaxOptions::default(), monitor)?.0)

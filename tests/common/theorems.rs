@@ -166,7 +166,7 @@ pub fn parametrisations_are_certified(case: &Case) {
     let Case { name, landmarks, .. } = case;
     let options = LayoutOptions { attempts: 1, ..LayoutOptions::default() };
     let layout = layout::joint([&case.source, &case.target], landmarks, &options, &mut Silent).unwrap();
-    let surface = Arc::new(ConeSurface::of_layout(&layout).unwrap());
+    let surface = Arc::new(ConeSurface::of_layout(&layout));
     let [source, target] = [&layout.source, &layout.target].map(|side| {
         let (start, _) = initial::embed(side, &surface, &InitialOptions::default(), &mut Silent)
             .unwrap_or_else(|e| panic!("{name}: {e}"));

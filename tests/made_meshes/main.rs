@@ -69,6 +69,7 @@ mod preview;
 mod remesh;
 mod repair;
 mod search;
+mod sharp_edges;
 mod thesis;
 mod torture;
 #[cfg(feature = "cli")]

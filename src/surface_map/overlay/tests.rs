@@ -36,7 +36,7 @@ impl Pair {
         let landmarks = Landmarks::from_vertices(source, target, &pairs).unwrap();
         let options = LayoutOptions::default();
         let layout = layout::joint([source, target], &landmarks, &options, &mut Silent).unwrap();
-        let surface = Arc::new(ConeSurface::of_layout(&layout).unwrap());
+        let surface = Arc::new(ConeSurface::of_layout(&layout));
         let start = |side| initial::embed(side, &surface, &InitialOptions::default(), &mut Silent).unwrap().0;
         let embeddings = [start(&layout.source), start(&layout.target)];
         Self { layout, surface, embeddings }

@@ -266,7 +266,7 @@ mod tests {
         let meshes = [&demo.source, &demo.target];
         let landmarks = Landmarks::from_vertices(meshes[0], meshes[1], &demo.landmarks).unwrap();
         let layout = layout::joint(meshes, &landmarks, &LayoutOptions::default(), &mut Silent).unwrap();
-        let surface = ConeSurface::of_layout(&layout).unwrap();
+        let surface = ConeSurface::of_layout(&layout);
         (layout, surface)
     }
 

@@ -20,6 +20,9 @@ impl DentEnergy {
     /// sixth power. Chosen by hand.
     const DEAR: f64 = 2.5;
 
+    /// E alone, without a cost of dents.
+    pub(super) const NONE: Self = Self { energy: MapEnergy::PLAIN, brink: f64::INFINITY };
+
     /// The energy per unit of source area of a piece.
     #[inline]
     pub(super) fn density(&self, j: &DMat2, counted: PieceWeight) -> f64 {

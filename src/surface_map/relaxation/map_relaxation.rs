@@ -585,7 +585,7 @@ pub(super) mod tests {
         let landmarks = Landmarks::from_vertices(&source, &target, &pairs).unwrap();
         let layout =
             layout::joint([&source, &target], &landmarks, &LayoutOptions::default(), &mut Silent).unwrap();
-        let surface = Arc::new(ConeSurface::of_layout(&layout).unwrap());
+        let surface = Arc::new(ConeSurface::of_layout(&layout));
         let start = |side| initial::embed(side, &surface, &InitialOptions::default(), &mut Silent).unwrap().0;
         let embeddings = [start(&layout.source), start(&layout.target)];
         (layout, surface, embeddings)
