@@ -1,8 +1,10 @@
 /** A button that opens a small box at its side. */
 import type { ComponentChildren, VNode } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import type { IconName } from './icons.tsx';
 import { Icon } from './icons.tsx';
+import type { Place } from './placement.ts';
+import { keepInPlace } from './placement.ts';
 
 interface PopoverProps {
   readonly icon: IconName;
@@ -10,8 +12,7 @@ interface PopoverProps {
   readonly label: string;
   /** The text beside the icon; without it the label is shown only as the tooltip. */
   readonly text?: string;
-  /** The direction in which the box opens from the button. */
-  readonly place: 'down start' | 'down end' | 'up start' | 'up end';
+  readonly place: Place;
   readonly id?: string;
   readonly disabled?: boolean;
   /** The content of the box; it can call `close` to shut the box. */
@@ -32,12 +33,17 @@ export function Popover({ icon, label, text, place, id, disabled, children }: Po
   const [open, setOpen] = useState(false);
   const root = useRef<HTMLDivElement>(null);
   const button = useRef<HTMLButtonElement>(null);
+  const body = useRef<HTMLDivElement>(null);
   const close = (): void => {
     if (root.current?.contains(document.activeElement) === true) {
       button.current?.focus();
     }
     setOpen(false);
   };
+  useLayoutEffect(
+    () => (open && body.current !== null && button.current !== null ? keepInPlace(body.current, button.current, place) : undefined),
+    [open, place],
+  );
   useEffect(() => {
     if (!open) {
       return undefined;
@@ -57,14 +63,14 @@ export function Popover({ icon, label, text, place, id, disabled, children }: Po
   return (
     <div
       ref={root}
-      class={`popover ${place}`}
+      class="popover"
       onKeyDown={(event) => {
         if (event.key === 'Escape' && open) {
           event.stopPropagation();
           close();
         }
-        const box = root.current?.querySelector<HTMLElement>('.body');
-        if (open && box && (event.key === 'ArrowDown' || event.key === 'ArrowUp')) {
+        const box = body.current;
+        if (open && box !== null && (event.key === 'ArrowDown' || event.key === 'ArrowUp')) {
           const inBox = box.contains(document.activeElement);
           if (!inBox || document.activeElement instanceof HTMLButtonElement) {
             event.preventDefault();
@@ -89,7 +95,11 @@ export function Popover({ icon, label, text, place, id, disabled, children }: Po
         <Icon name={icon} />
         {text !== undefined && <span class="word">{text}</span>}
       </button>
-      {open && <div class="body">{children(close)}</div>}
+      {open && (
+        <div ref={body} class="body" popover="manual">
+          {children(close)}
+        </div>
+      )}
     </div>
   );
 }
