@@ -88,6 +88,50 @@ test('the main action is in sight, and nothing scrolls sideways, from a phone to
   }
 });
 
+/** The controls on the views that are covered at their middle, or stick out of their view. */
+async function hidden(page: Page): Promise<string[]> {
+  return page.locator('.view-bar, .map-bar, .picture-bar').locator('button, input').evaluateAll((controls) =>
+    controls
+      .filter((control) => {
+        const { left, right, top, bottom } = control.getBoundingClientRect();
+        const pane = control.closest('.pane')?.getBoundingClientRect();
+        const above = document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
+        const isInside = pane !== undefined && left >= pane.left && right <= pane.right && top >= pane.top && bottom <= pane.bottom;
+        return !isInside || !control.contains(above);
+      })
+      .map((control) => control.getAttribute('aria-label') ?? control.outerHTML),
+  );
+}
+
+test('no bar on a view lies over another one, however narrow the views are', async ({ page }) => {
+  await openDemo(page, '#demo=sphere-tetrahedron');
+  await runMap(page);
+  await openStep(page, 'use');
+  await page.getByRole('radio', { name: 'Conformal factor' }).check();
+  for (const [width, height] of [[1280, 800], [1024, 768], [853, 533], [800, 600], [640, 400]] as const) {
+    await page.setViewportSize({ width, height });
+    await expect.poll(() => hidden(page), { message: `${width} x ${height}` }).toEqual([]);
+  }
+});
+
+test('the menu of what the surfaces show stays inside the window', async ({ page }) => {
+  await openDemo(page, '#demo=sphere-tetrahedron');
+  await page.getByRole('button', { name: /^Picture: / }).click();
+  const box = page.locator('.popover > .body');
+  for (const [width, height] of [[1280, 800], [640, 400]] as const) {
+    await page.setViewportSize({ width, height });
+    await expect.poll(async () => {
+      const { x, y, width: wide, height: high } = (await box.boundingBox()) ?? { x: -1, y: -1, width: 0, height: 0 };
+      return wide > 0 && x >= 0 && y >= 0 && x + wide <= width && y + high <= height;
+    }, `${width} x ${height}`).toBe(true);
+  }
+  for (const name of ['Plain', 'Distortion', 'Texture boundary']) {
+    const choice = page.getByLabel(name, { exact: true }).last();
+    await choice.scrollIntoViewIfNeeded();
+    await expect(choice, name).toBeInViewport({ ratio: 1 });
+  }
+});
+
 test('steps open by keys, and their panel folds away', async ({ page }) => {
   await openDemo(page);
   const names = ['Meshes', 'Landmarks', 'Map', 'Use', 'Method'];

@@ -199,31 +199,33 @@ export function Legend({ state }: Pick<PartProps, 'state'>): VNode | null {
     return null;
   }
   return (
-    <div class="legend small">
-      {words !== null && <p role="status">{words}</p>}
-      {scale !== null && (
-        <div class="scale" role="img" aria-label={scale.label}>
-          <div class="bar" style={{ backgroundImage: gradientOf(scale.colours === 'rising' ? risingScale() : factorScale()) }} />
-          <div class="ticks">
-            {scale.ticks.map((tick) => (
-              <span key={tick}>{tick}</span>
-            ))}
+    <div class="legend-line">
+      <div class="legend small">
+        {words !== null && <p role="status">{words}</p>}
+        {scale !== null && (
+          <div class="scale" role="img" aria-label={scale.label}>
+            <div class="bar" style={{ backgroundImage: gradientOf(scale.colours === 'rising' ? risingScale() : factorScale()) }} />
+            <div class="ticks">
+              {scale.ticks.map((tick) => (
+                <span key={tick}>{tick}</span>
+              ))}
+            </div>
           </div>
-        </div>
-      )}
-      {cones && (
-        <p>
-          <span class="dot positive" />
-          bulging, <span class="dot negative" />
-          saddle-like cones
-        </p>
-      )}
-      {boundary && (
-        <p>
-          <span class="stroke" />
-          where the texture is cut
-        </p>
-      )}
+        )}
+        {cones && (
+          <p>
+            <span class="dot positive" />
+            bulging, <span class="dot negative" />
+            saddle-like cones
+          </p>
+        )}
+        {boundary && (
+          <p>
+            <span class="stroke" />
+            where the texture is cut
+          </p>
+        )}
+      </div>
     </div>
   );
 }

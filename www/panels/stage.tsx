@@ -60,6 +60,11 @@ function Caption({ state, side }: { readonly state: State; readonly side: Side }
   );
 }
 
+/** The side whose view has the bar that is about both: the target's, unless the source is shown alone. */
+function pictureSide(split: number): Side {
+  return split === 1 ? 0 : 1;
+}
+
 function Pane({ side, ...props }: { readonly side: Side } & PartProps): VNode {
   const share = side === 0 ? props.shell.state.split : 1 - props.shell.state.split;
   const isCompared = comparedCaptions(props.state) !== null;
@@ -71,8 +76,16 @@ function Pane({ side, ...props }: { readonly side: Side } & PartProps): VNode {
       </div>
       <Invitation state={props.state} side={side} />
       {side === 0 && !isCompared && <WipeLine {...props} />}
-      {side === 1 && isCompared ? <CompareBar {...props} /> : <ViewBar {...props} side={side} />}
-      {side === 0 && !isCompared && <MapBar {...props} />}
+      <div class="bars">
+        {side === 1 && isCompared ? <CompareBar {...props} /> : <ViewBar {...props} side={side} />}
+        {side === 0 && !isCompared && <MapBar {...props} />}
+        {side === pictureSide(props.shell.state.split) && (
+          <>
+            <PictureBar {...props} />
+            <Legend {...props} />
+          </>
+        )}
+      </div>
     </div>
   );
 }
@@ -87,8 +100,6 @@ export function Stage(props: PartProps): VNode {
         <Pane key={side} {...props} side={side} />
       ))}
       <Divider shell={shell} />
-      <Legend state={state} />
-      <PictureBar state={state} actions={actions} />
       <DemoLine state={state} actions={actions} />
       <Toasts state={state} actions={actions} />
       <Notices state={state} actions={actions} />
