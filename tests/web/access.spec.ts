@@ -132,6 +132,23 @@ test('the menu of what the surfaces show stays inside the window', async ({ page
   }
 });
 
+test('what a box or a dialog holds ends before its border', async ({ page }) => {
+  await openDemo(page, '#demo=sphere-tetrahedron');
+  const sticksOut = (selector: string): Promise<number[]> =>
+    page.locator(selector).evaluateAll((boxes) => boxes.map(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth));
+  for (const [width, height] of [[1280, 800], [640, 400], [320, 568]] as const) {
+    await page.setViewportSize({ width, height });
+    await page.getByRole('button', { name: 'Share', exact: true }).click();
+    await expect(page.locator('#copy-link')).toBeVisible();
+    expect(await sticksOut('.popover > .body'), `Share at ${width}`).toEqual([0]);
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('?');
+    await expect(page.getByRole('dialog')).toBeVisible();
+    expect(await sticksOut('dialog[open]'), `help at ${width}`).toEqual([0]);
+    await page.keyboard.press('Escape');
+  }
+});
+
 test('steps open by keys, and their panel folds away', async ({ page }) => {
   await openDemo(page);
   const names = ['Meshes', 'Landmarks', 'Map', 'Use', 'Method'];
