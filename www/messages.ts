@@ -162,6 +162,7 @@ export const SENTENCES = {
   brokenZip: 'this zip cannot be unpacked: it may be damaged or cut off.',
   largeZip: 'this zip unpacks to more than the page can take.',
   manyInZip: 'this zip holds more than 1000 files: put only the meshes and their parts into it.',
+  mapOfOthers: 'The last map is of other meshes, and comes back with them.',
   noDemo: 'There is no demo of that name. Choose one from the menu.',
   whileRunning: 'A map is being computed. Cancel it first, then change the meshes.',
   unreadable: 'could not be read from the disk.',
@@ -225,20 +226,18 @@ export function planeSentence(name: string, { misfit, fits }: { readonly misfit:
     : `The ${name} has no plane of symmetry: its mirror image at the best plane is ${off} off on average. Choose a plane, or place the landmarks of both sides yourself.`;
 }
 
-/** A sentence about what has changed since the map was made. */
+/** A sentence about what has changed since the map of the same meshes was made. */
 export function staleSentence(changes: {
-  readonly meshes: readonly (0 | 1)[];
   readonly placed: readonly number[];
   readonly moved: readonly number[];
   readonly softened: readonly number[];
   readonly removed: readonly number[];
   readonly options: readonly string[];
 }): string {
-  const { meshes, placed, moved, softened, removed, options } = changes;
+  const { placed, moved, softened, removed, options } = changes;
   const pairs = (numbers: readonly number[], done: string): string[] =>
     numbers.length === 0 ? [] : [numbers.length === 1 ? `pair ${numbers[0] ?? ''} was ${done}` : `${count(numbers.length, 'pair')} were ${done}`];
   const words = [
-    ...meshes.map((side) => `the ${side === 0 ? 'source' : 'target'} was replaced`),
     ...pairs(placed, 'added'),
     ...pairs(moved, 'moved'),
     ...pairs(softened, 'made soft or held again'),

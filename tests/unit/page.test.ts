@@ -1,6 +1,8 @@
 /** What the page's parts derive from the state: the steps, the fit of pairs, and what a browser remembers. */
 import { describe, expect, test } from 'vitest';
+import type { LandmarkFile } from '../../www/landmarks.ts';
 import { fitsOf } from '../../www/panels/fits.ts';
+import { reason } from '../../www/panels/main-action.tsx';
 import { documentName, meshName } from '../../www/panels/names.ts';
 import { remembered } from '../../www/panels/shell.ts';
 import { markOf, stepAfter, STEPS } from '../../www/panels/steps.ts';
@@ -23,6 +25,16 @@ describe('a step', () => {
     expect(markOf(changed, 'use')).toBe('outdated');
     expect(markOf(changed, 'landmarks')).toBe('ready');
     expect(markOf(after(changed, { kind: 'undo' }), 'map')).toBe('done');
+  });
+
+  test('begins anew where the map is of other meshes, until they are back', () => {
+    const pairs = DONE.pairs.map(({ points }) => points);
+    const other = after(DONE, { kind: 'mesh', side: 0, file: mesh('a') }, { kind: 'mesh', side: 1, file: mesh('b') }, { kind: 'landmarks', file: { pairs } as LandmarkFile });
+    expect(marks(other)).toEqual(['done', 'done', 'ready', 'empty', 'empty']);
+    expect(reason(other)).toBe('With 4 landmark pairs.');
+    const back = after(other, { kind: 'undo' }, { kind: 'undo' }, { kind: 'undo' });
+    expect(marks(back)).toEqual(marks(DONE));
+    expect(reason(back)).toBe('The map shown is current.');
   });
 
   test('asks to look at doubtful landmarks', () => {

@@ -4,7 +4,7 @@ import { integer } from '../numbers.ts';
 import { expectedMemory, mayExceedMemory } from '../store/memory.ts';
 import { wholePairs } from '../store/order.ts';
 import { canRun, MIN_PAIRS } from '../store/readiness.ts';
-import { staleness } from '../store/staleness.ts';
+import { shownResult, staleness } from '../store/staleness.ts';
 import type { State } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { choose } from './inputs.tsx';
@@ -19,7 +19,7 @@ function tooLarge(state: State): string {
 }
 
 /** Why no map can be made, or else what it would be made from. */
-function reason(state: State): string {
+export function reason(state: State): string {
   const pairs = wholePairs(state).length;
   if (!state.ready) {
     return 'Loading…';
@@ -33,7 +33,7 @@ function reason(state: State): string {
   if (mayExceedMemory(state)) {
     return tooLarge(state);
   }
-  if (state.result === null) {
+  if (shownResult(state) === null) {
     return `With ${pairs} landmark pairs.`;
   }
   return staleness(state) === null ? 'The map shown is current.' : 'Something has changed since the map shown.';

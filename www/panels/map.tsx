@@ -30,14 +30,12 @@ interface ResultProps {
   readonly result: Result;
   /** Why the map is outdated; `null` where it is not. */
   readonly stale: string | null;
-  /** Whether the views show the map. */
-  readonly shown: boolean;
   /** The verdict of a second program on the map; `null` where it was not asked. */
   readonly proof: MapProof | null;
   readonly actions: Actions;
 }
 
-function ResultSection({ result, stale, shown, proof, actions }: ResultProps): VNode {
+function ResultSection({ result, stale, proof, actions }: ResultProps): VNode {
   const { report } = result;
   const { level, sentence, more } = verdictOf(report);
   return (
@@ -53,7 +51,7 @@ function ResultSection({ result, stale, shown, proof, actions }: ResultProps): V
           <Note key={warning.kind} sentence={warning.sentence} />
         ))}
       </div>
-      {shown && <WorstPlaces result={result} actions={actions} />}
+      <WorstPlaces result={result} actions={actions} />
     </section>
   );
 }
@@ -79,7 +77,7 @@ function AboutDemo({ demo }: { readonly demo: Demo }): VNode {
 
 /** The content of the panel. */
 export function MapPanel({ state, actions, shell }: PartProps): VNode {
-  const { result } = state;
+  const result = shownResult(state);
   const changes = staleness(state);
   return (
     <div class="content">
@@ -95,13 +93,12 @@ export function MapPanel({ state, actions, shell }: PartProps): VNode {
         <ResultSection
           result={result}
           stale={changes === null ? null : staleSentence(changes)}
-          shown={shownResult(state) === result}
           proof={state.proof?.of === result ? state.proof : null}
           actions={actions}
         />
       )}
       {result === null && state.job.kind !== 'running' && (
-        <p class="quiet">The map gives every point of the source its partner on the target, through all landmark pairs.</p>
+        <p class="quiet">{state.result !== null && SENTENCES.mapOfOthers} The map gives every point of the source its partner on the target, through all landmark pairs.</p>
       )}
       {state.demo !== null && state.job.kind !== 'running' && <AboutDemo demo={state.demo} />}
       <section id="details">

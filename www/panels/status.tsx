@@ -8,7 +8,7 @@ import { shownStyle } from '../store/compared.ts';
 import type { Running } from '../store/job.ts';
 import { wholePairs } from '../store/order.ts';
 import { proposed } from '../store/proposal.ts';
-import { isCurrent } from '../store/staleness.ts';
+import { isCurrent, shownResult } from '../store/staleness.ts';
 import type { HeatMap, State, Style } from '../store/state.ts';
 import { isHeatMap } from '../store/surfaces.ts';
 import { asked, waitingCount } from '../store/waiting.ts';
@@ -65,7 +65,7 @@ function restSentence(state: State, probe: Probe | null): string {
     case 'busy':
       return state.job.task.sentence;
     case 'error':
-      return state.result === null ? 'No map was made.' : 'No new map was made; the last one is shown.';
+      return shownResult(state) === null ? 'No map was made.' : 'No new map was made; the last one is shown.';
     case 'done':
       return isCurrent(state) ? 'The map is done.' : '';
     case 'idle':

@@ -1,7 +1,7 @@
 /** The progress of each step of the work, and the step that opens by itself. */
 import { wholePairs } from '../store/order.ts';
 import { canRun, MIN_PAIRS } from '../store/readiness.ts';
-import { isCurrent } from '../store/staleness.ts';
+import { isCurrent, shownResult } from '../store/staleness.ts';
 import type { State } from '../store/state.ts';
 
 export type Step = State['ui']['step'];
@@ -19,7 +19,7 @@ function hasPairs(state: State): boolean {
 
 /** The mark that shows the progress of a step. */
 export function markOf(state: State, step: Step): Mark {
-  const result = state.result === null ? null : isCurrent(state) ? 'done' : 'outdated';
+  const result = shownResult(state) === null ? null : isCurrent(state) ? 'done' : 'outdated';
   switch (step) {
     case 'meshes':
       return state.job.kind === 'busy' ? 'running' : hasMeshes(state) ? 'done' : 'empty';
