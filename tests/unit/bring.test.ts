@@ -89,23 +89,28 @@ describe('files that were chosen', () => {
     expect(taken([FRAME, CURVES], 'a.obj', 'b.obj').given).toMatchObject({ kind: 'frames', kinds: ['frames'] });
     const { given, error } = taken([FRAME, VALUES], 'a.obj', 'heat.csv');
     expect(error).toBe('heat.csv: several files at once must be one mesh in several poses, and this is none. Bring it alone.');
-    // The earlier files stay.
-    expect(given?.files.map(({ name }) => name)).toEqual(['a.obj', 'b.obj']);
+    expect(given).toBeNull();
   });
 
-  test('are refused by name, and those before stay', () => {
+  test('are refused by name, and then nothing is chosen', () => {
     taken([VALUES], 'heat.csv');
     desk.take([file('empty.csv')]);
     expect(desk.state.work).toEqual({ kind: 'looking', share: 0 });
     worker().says({ kind: 'failed', failure: { code: 'transfer', message: 'the file is empty', file: 0 } });
-    expect(desk.state).toMatchObject({ error: 'empty.csv: The file is empty.', work: null, given: { kind: 'values' } });
+    expect(desk.state).toMatchObject({ error: 'empty.csv: The file is empty.', work: null, given: null, made: null });
+    const before = workers.made.length;
+    desk.bring();
+    expect(workers.made).toHaveLength(before);
+    taken([VALUES], 'heat.csv');
     desk.take([file('huge.obj', 2 ** 30 + 1)]);
+    expect(desk.state.given).toBeNull();
     expect(desk.state.error).toBe('huge.obj is larger than 1 GiB, more than the page can take.');
     desk.take([file('a.obj', 2 ** 29), file('b.obj', 2 ** 29 + 1)]);
-    expect(desk.state).toMatchObject({ error: WORDS.tooMuch, given: { kind: 'values' } });
+    expect(desk.state).toMatchObject({ error: WORDS.tooMuch, given: null });
+    taken([VALUES], 'heat.csv');
     core = null;
     desk.take([file('heat.csv')]);
-    expect(desk.state).toMatchObject({ error: WORDS.noCore, work: null });
+    expect(desk.state).toMatchObject({ error: WORDS.noCore, work: null, given: { kind: 'values' } });
   });
 
   test('of which the later ones count, whatever comes of the earlier', () => {

@@ -235,8 +235,9 @@ test('what does not fit is told with its file and line, and nothing is lost', as
     [upload('letter.txt', 'Dear reader\nthis is no table\n')],
     'letter.txt: Nothing in it can be brought across: give values as a table (CSV) or PLY, curves as OBJ lines, CSV or JSON, a texture as PNG, or the mesh in other poses.',
   );
-  // The files that were chosen before are still there.
-  await expect(panel().locator('.bring-kind')).toContainText('words.csv');
+  // Nothing is chosen any more: the button would bring the earlier file.
+  await expect(panel().locator('.bring-kind')).toHaveCount(0);
+  await expect(panel().getByRole('button', { name: 'Bring onto the source' })).toHaveCount(0);
   await refused([upload('empty.csv', '')], 'empty.csv: The file is empty.');
   await refused([upload('a.obj', TARGET.obj), upload('b.csv', 'height\n1\n')], 'b.csv: several files at once must be one mesh in several poses, and this is none. Bring it alone.');
   await choose([upload('other.obj', SOURCE.obj)], 'other.obj: the target in another pose.');

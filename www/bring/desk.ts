@@ -90,6 +90,16 @@ function together(files: readonly File[], reports: readonly GivenFileReport[]): 
   return other === -1 ? { files, kinds: ['frames'], kind: 'frames', columns: [] } : notTogether(files[other]?.name ?? '');
 }
 
+/** The sentence about a failure, which goes into the log, too. */
+function told(failure: BringFailure, files: readonly File[], meshes: Readonly<Record<Giver, string>> = { source: 'source', target: 'target' }): string {
+  console.error(failure);
+  return bringSentence(
+    failure,
+    files.map(({ name }) => name),
+    meshes,
+  );
+}
+
 /** The request to the core for these choices. */
 export function wishOf({ kind, columns }: Pick<Given, 'kind' | 'columns'>, choices: Choices): TransferWish {
   const having = (role: Role): string[] => columns.filter((name) => (choices.columns === 'own' ? choices.roles.get(name) : choices.columns) === role);
@@ -148,14 +158,14 @@ export class Desk {
     }
   }
 
-  /** Looks at files; the earlier ones stay until it is known what the new ones are. */
+  /** Looks at files; the earlier ones stay until it is known what the new ones are, and are gone where these are refused. */
   take(files: readonly File[]): void {
     const core = this.#begin('looking');
     const large = files.find(({ size }) => size > MOST_BYTES);
     if (large !== undefined) {
-      this.#fail(`${large.name} ${WORDS.tooLarge}`);
+      this.#refuse(`${large.name} ${WORDS.tooLarge}`);
     } else if (files.reduce((sum, { size }) => sum + size, 0) > MOST_BYTES) {
-      this.#fail(WORDS.tooMuch);
+      this.#refuse(WORDS.tooMuch);
     } else if (core !== null) {
       this.#end = lookAt({ module: core, files }, {
         progress: this.#progress,
@@ -163,7 +173,7 @@ export class Desk {
           this.#looked(files, reports);
         },
         failed: (failure) => {
-          this.#failed(failure, files);
+          this.#refuse(told(failure, files));
         },
       });
     }
@@ -233,7 +243,7 @@ export class Desk {
         this.#came(brought, name(brought));
       },
       failed: (failure) => {
-        this.#failed(failure, files, { source: source.name, target: target.name });
+        this.#fail(told(failure, files, { source: source.name, target: target.name }));
       },
     });
   }
@@ -249,7 +259,7 @@ export class Desk {
   #looked(files: readonly File[], reports: readonly GivenFileReport[]): void {
     const given = together(files, reports);
     if (typeof given === 'string') {
-      this.#fail(given);
+      this.#refuse(given);
       return;
     }
     const valueFormat = endingOf(files[0]?.name ?? '') === 'ply' ? 'ply' : 'csv';
@@ -271,15 +281,9 @@ export class Desk {
     this.#hands.save(made);
   }
 
-  #failed(failure: BringFailure, files: readonly File[], meshes: Readonly<Record<Giver, string>> = { source: 'source', target: 'target' }): void {
-    console.error(failure);
-    this.#fail(
-      bringSentence(
-        failure,
-        files.map(({ name }) => name),
-        meshes,
-      ),
-    );
+  /** Says why files were refused. The earlier ones are no longer chosen, so that the button does not bring them in place of these. */
+  #refuse(error: string): void {
+    this.#set({ work: null, error, given: null, made: null });
   }
 
   #fail(error: string): void {
