@@ -466,10 +466,10 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     changes: { flattening: FLATTENING },
   },
   'texture-picture': {
-    before: METHOD,
+    before: { ...METHOD, error: 'Something failed.' },
     event: { picture: TEXTURE },
     step: null,
-    changes: { texturePicture: TEXTURE, ui: ui(METHOD, { style: { ...METHOD.ui.style, surface: 'picture' } }) },
+    changes: { texturePicture: TEXTURE, error: null, ui: ui(METHOD, { style: { ...METHOD.ui.style, surface: 'picture' } }) },
   },
   'run-started': {
     before: { ...DOUBTED, error: 'Something failed.' },

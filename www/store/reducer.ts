@@ -198,7 +198,7 @@ export function update(state: State, event: Event): State {
     case 'flattening':
       return { ...state, flattening: event.flattening };
     case 'texture-picture':
-      return withStyle({ ...state, texturePicture: event.picture }, { surface: 'picture' });
+      return withStyle({ ...state, texturePicture: event.picture, error: null }, { surface: 'picture' });
     case 'comparison-closed':
       return patched(state, { comparison: null });
     case 'run-started':
