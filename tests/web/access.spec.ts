@@ -149,6 +149,22 @@ test('what a box or a dialog holds ends before its border', async ({ page }) => 
   }
 });
 
+test('the keyboard goes on beside what it has removed', async ({ page }) => {
+  await openDemo(page);
+  await openStep(page, 'landmarks');
+  const press = async (name: string): Promise<void> => {
+    await page.getByRole('button', { name, exact: true }).press('Enter');
+  };
+  await press('Delete pair 4');
+  await expect(page.getByRole('button', { name: 'Delete pair 5', exact: true })).toBeFocused();
+  await press('Clear all');
+  await expect(page.locator('#panel-title')).toBeFocused();
+  await openStep(page, 'meshes');
+  await page.locator('[data-demo-id="sphere-tetrahedron"]').first().press('Enter');
+  await expect(page.locator('#panel h2')).toContainText('Map', { timeout: 60_000 });
+  await expect(page.locator('#panel-title')).toBeFocused();
+});
+
 test('steps open by keys, and their panel folds away', async ({ page }) => {
   await openDemo(page);
   const names = ['Meshes', 'Landmarks', 'Map', 'Use', 'Method'];

@@ -8,7 +8,7 @@ interface IconButtonProps {
   readonly icon: IconName;
   /** What the button does, beginning with a verb; it is also the tooltip. */
   readonly label: string;
-  readonly onClick: () => void;
+  readonly onClick: (event: MouseEvent) => void;
   readonly id?: string;
   readonly pressed?: boolean;
   readonly disabled?: boolean;

@@ -32,6 +32,21 @@ function missingText(pair: Pair): string {
   return `click the ${SIDE_NAMES[pair.points[0] === null ? 0 : 1]}`;
 }
 
+/** The button that deletes the pair of another row, or that row where its pair is locked. */
+function deleteButton(row: Element): HTMLElement | null {
+  return row.querySelector<HTMLElement>('.row-tools button:last-child:not(:disabled)') ?? row.closest('tr');
+}
+
+/** Deletes a pair; the keyboard goes on at the row after it, or before it where it was the last. */
+function remove(id: number, { detail, currentTarget }: MouseEvent, { dispatch }: Actions): void {
+  const row = currentTarget instanceof Element ? currentTarget.closest('tr') : null;
+  const next = row?.nextElementSibling ?? row?.previousElementSibling ?? null;
+  dispatch({ kind: 'pair-deleted', id });
+  if (detail === 0 && next !== null && row?.isConnected === false) {
+    deleteButton(next)?.focus();
+  }
+}
+
 function RowTools({ pair, actions }: Pick<RowProps, 'pair' | 'actions'>): VNode {
   const { id, number, locked, radius } = pair;
   return (
@@ -57,8 +72,8 @@ function RowTools({ pair, actions }: Pick<RowProps, 'pair' | 'actions'>): VNode 
         icon="close"
         label={`Delete pair ${number}`}
         disabled={locked}
-        onClick={() => {
-          actions.dispatch({ kind: 'pair-deleted', id });
+        onClick={(event) => {
+          remove(id, event, actions);
         }}
       />
     </div>

@@ -1,5 +1,6 @@
 /** The second step, Landmarks: pairs of places that correspond. */
 import type { VNode } from 'preact';
+import { byId } from '../dom.ts';
 import { wholePairs } from '../store/order.ts';
 import type { PartProps } from './actions.ts';
 import { choose } from './inputs.tsx';
@@ -39,8 +40,12 @@ function FileButtons({ state, actions }: Pick<PartProps, 'state' | 'actions'>): 
       <button
         type="button"
         disabled={state.pairs.length === 0}
-        onClick={() => {
+        onClick={({ detail }) => {
           actions.dispatch({ kind: 'pairs-cleared' });
+          // The button is disabled now, which takes the keyboard from it.
+          if (detail === 0) {
+            byId('panel-title').focus();
+          }
         }}
       >
         Clear all

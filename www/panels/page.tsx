@@ -58,6 +58,22 @@ function applyTheme(theme: Theme): void {
   document.documentElement.dataset['theme'] = theme;
 }
 
+/** Draws the page; the keyboard goes to the head of the panel where a drawing removes the control of it, or the card of a demo, that had it. */
+function keepingFocus(draw: () => void): void {
+  const active = document.activeElement;
+  const hadKeyboard = active?.matches(':focus-visible') === true && active.closest('#panel, .demo-card') !== null;
+  draw();
+  if (!hadKeyboard) {
+    return;
+  }
+  // Whoever made the change may give the focus elsewhere.
+  queueMicrotask(() => {
+    if (!active.isConnected && document.activeElement === document.body) {
+      byId('panel-title').focus();
+    }
+  });
+}
+
 /** The functions by which the page hears of changes. */
 export interface Mounted {
   /** Called when the state has changed. */
@@ -75,7 +91,9 @@ export function mountPage(initial: State, actions: Actions): Mounted {
   let state = initial;
   const draw = (): void => {
     root.classList.toggle('folded', state.ui.panel === 'folded');
-    render(<Page state={state} actions={actions} shell={shell} />, root);
+    keepingFocus(() => {
+      render(<Page state={state} actions={actions} shell={shell} />, root);
+    });
   };
   shell.subscribe(draw);
   listenForKeys(() => state, actions, shell);

@@ -41,7 +41,7 @@ export function Panel(props: PartProps): VNode {
   return (
     <aside id="panel" aria-label={STEP_NAMES[step]}>
       <div class="head">
-        <h2>
+        <h2 id="panel-title" tabIndex={-1}>
           <span>
             {STEP_NAMES[step]} {count !== null && <span class="count quiet">{count}</span>}
           </span>
