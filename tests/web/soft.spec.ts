@@ -50,6 +50,19 @@ test('a soft landmark settles when the map is made, and is held there; undo give
   await expect(soft).toHaveAttribute('aria-pressed', 'false');
 });
 
+test('the rows stay where they are when the field of a soft pair comes and goes', async ({ page }) => {
+  await openDemo(page);
+  await openStep(page, 'landmarks');
+  const second = page.getByRole('textbox', { name: 'Name of pair 2', exact: true });
+  const place = await second.boundingBox();
+  await page.getByRole('button', { name: 'Soft pair 1', exact: true }).click();
+  await expect(page.getByRole('spinbutton', { name: /^Radius of pair 1/ })).toBeInViewport({ ratio: 1 });
+  expect(await second.boundingBox()).toEqual(place);
+  await second.click();
+  await expect(page.getByRole('spinbutton')).toHaveCount(0);
+  expect(await second.boundingBox()).toEqual(place);
+});
+
 test('radii that are none are refused in a sentence, and nothing is lost', async ({ page }) => {
   await openDemo(page);
   await openStep(page, 'landmarks');

@@ -63,7 +63,6 @@ export function LandmarksPanel({ state, actions }: PartProps): VNode {
       <FindLandmarks state={state} actions={actions} />
       <Matched state={state} actions={actions} />
       <LeftAndRight state={state} actions={actions} />
-      <SoftRadius state={state} actions={actions} />
       <ProposalNote state={state} actions={actions} />
       <Suggestions state={state} actions={actions} />
       <div class="table">
@@ -76,6 +75,8 @@ export function LandmarksPanel({ state, actions }: PartProps): VNode {
           <LandmarkTable state={state} actions={actions} />
         )}
       </div>
+      {/* Below the list, so that its rows stay under the mouse when this comes and goes. */}
+      <SoftRadius state={state} actions={actions} />
     </div>
   );
 }
