@@ -68,3 +68,14 @@ export function download(name: string, type: string, data: BlobPart): void {
     URL.revokeObjectURL(url);
   }, DOWNLOAD_KEPT);
 }
+
+/** The name of the first folder among what was dropped; `null` where there is none. A folder cannot be told by its file. */
+export function folderAmong(items: Iterable<Pick<DataTransferItem, 'webkitGetAsEntry'>> = []): string | null {
+  for (const item of items) {
+    const entry = item.webkitGetAsEntry();
+    if (entry?.isDirectory === true) {
+      return entry.name;
+    }
+  }
+  return null;
+}

@@ -1,6 +1,6 @@
 /** Helpers for elements and the clipboard. */
 import { describe, expect, test, vi } from 'vitest';
-import { copied, isTyped } from '../../www/dom.ts';
+import { copied, folderAmong, isTyped } from '../../www/dom.ts';
 
 /** Elements of a browser, with only the members that are used. */
 class FakeElement extends EventTarget {
@@ -50,4 +50,14 @@ describe('a text is copied', () => {
     vi.stubGlobal('navigator', {});
     expect(await copied('a link')).toBe(false);
   });
+});
+
+test('a folder among what was dropped is told by its name', () => {
+  const dropped = (name: string, isDirectory: boolean): Pick<DataTransferItem, 'webkitGetAsEntry'> => ({
+    webkitGetAsEntry: () => ({ name, isDirectory }) as FileSystemEntry,
+  });
+  const text = { webkitGetAsEntry: (): null => null };
+  expect(folderAmong([text, dropped('cat.obj', false), dropped('meshes', true)])).toBe('meshes');
+  expect(folderAmong([text, dropped('cat.obj', false)])).toBeNull();
+  expect(folderAmong()).toBeNull();
 });

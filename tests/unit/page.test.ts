@@ -4,6 +4,7 @@ import type { LandmarkFile } from '../../www/landmarks.ts';
 import { fitsOf } from '../../www/panels/fits.ts';
 import { reason } from '../../www/panels/main-action.tsx';
 import { documentName, meshName } from '../../www/panels/names.ts';
+import { runningSentence } from '../../www/panels/progress.ts';
 import { remembered } from '../../www/panels/shell.ts';
 import { markOf, stepAfter, STEPS } from '../../www/panels/steps.ts';
 import { INITIAL } from '../../www/store/state.ts';
@@ -41,6 +42,12 @@ describe('a step', () => {
     const found = after({ ...READY, job: RUNNING }, { kind: 'run-found', findings: [SWAPPED] });
     expect(markOf(found, 'landmarks')).toBe('outdated');
   });
+});
+
+test('a run that is to finish tells of its best map only once it has one', () => {
+  expect(runningSentence(RUNNING)).toBe('Starting…');
+  expect(runningSentence({ ...RUNNING, finish: 'asked' })).toBe('Finishing as soon as there is a map: starting…');
+  expect(runningSentence({ ...RUNNING, finish: 'asked', energies: [[6]] })).toBe('Finishing with the best map so far: starting…');
 });
 
 describe('a step opens by itself', () => {

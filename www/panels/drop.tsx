@@ -1,9 +1,10 @@
 /** Files dropped anywhere on the page, or pasted. */
 import type { VNode } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
-import { byId } from '../dom.ts';
+import { byId, folderAmong } from '../dom.ts';
 import type { Side } from '../landmarks.ts';
 import { SIDES } from '../landmarks.ts';
+import { SENTENCES } from '../messages.ts';
 import type { Actions } from './actions.ts';
 import { VIEW_IDS } from './names.ts';
 
@@ -49,6 +50,11 @@ function listen(actions: Actions, show: (over: Over) => void): () => void {
       return;
     }
     event.preventDefault();
+    const folder = folderAmong(event.dataTransfer?.items);
+    if (folder !== null) {
+      actions.dispatch({ kind: 'error', sentence: `${folder} ${SENTENCES.folder}` });
+      return;
+    }
     take(event.dataTransfer?.files, sideAt(event.clientX, event.clientY));
   };
   const paste = (event: ClipboardEvent): void => {

@@ -13,7 +13,7 @@ import { choose } from './inputs.tsx';
 
 const BLOCKS = [
   { title: 'Source', chooser: 'source-file', about: 'is carried onto the target' },
-  { title: 'Target', chooser: 'target-file', about: 'is what the source is mapped onto' },
+  { title: 'Target', chooser: 'target-file', about: 'the source is mapped onto' },
 ] as const;
 
 /** A refused mesh, and what is wrong with it. */

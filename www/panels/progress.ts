@@ -3,9 +3,13 @@ import { figure } from '../numbers.ts';
 import type { Running } from '../store/job.ts';
 
 /** A sentence about what the run does now. */
-export function runningSentence({ progress, finish }: Running): string {
+export function runningSentence({ progress, finish, energies, preview }: Running): string {
   const stage = progress === null ? 'Starting' : progress.sentence;
-  return finish === 'asked' ? `Finishing with the best map so far: ${stage.toLowerCase()}…` : `${stage}…`;
+  if (finish !== 'asked') {
+    return `${stage}…`;
+  }
+  const isThere = preview !== null || energies.flat().length > 0;
+  return `${isThere ? 'Finishing with the best map so far' : 'Finishing as soon as there is a map'}: ${stage.toLowerCase()}…`;
 }
 
 /** The number that the present stage of a run lowers. */
