@@ -33,6 +33,11 @@ pub struct Difference {
 }
 
 impl Difference {
+    /// Whether there is one: other pairs, or images elsewhere.
+    pub(super) fn is_any(&self) -> bool {
+        self.kind != DifferenceKind::Places || !self.pairs.is_empty() || self.share > 0.0
+    }
+
     /// One sentence for the user. `number` gives the number of a vertex in the user's file.
     pub fn sentence(&self, number: impl Fn(MeshSide, VertexId) -> usize) -> String {
         let pairs: Vec<String> = self

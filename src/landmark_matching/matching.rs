@@ -6,6 +6,7 @@
 
 use super::candidate::{Candidate, PictureOnMesh, score_of_measures};
 use super::candidates::{cheapest, chosen};
+use super::difference::Difference;
 use super::heads::with_twins;
 use super::input::MatchInput;
 use super::judge::{Measures, judge};
@@ -116,6 +117,8 @@ pub fn match_landmarks(
     if let Some((best, others)) = candidates.split_first_mut() {
         others.iter_mut().for_each(|other| other.difference = Some(difference(shapes, best, other)));
     }
+    // One assignment may have been found twice, with its pairs in another order.
+    candidates.retain(|candidate| candidate.difference.as_ref().is_none_or(Difference::is_any));
     let verdict = verdict(
         input,
         shapes,

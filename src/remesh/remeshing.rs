@@ -6,6 +6,7 @@ use super::tips;
 use super::working::Working;
 use crate::math::scalar::{max, min};
 use crate::mesh::SurfaceMesh;
+use crate::mesh::check::MAX_FACES;
 use crate::mesh::surface_index::SurfaceIndex;
 use crate::monitor::{Cancelled, Monitor, Stage, Step};
 use std::f64::consts::FRAC_PI_4;
@@ -16,7 +17,7 @@ pub const USUAL_CREASE_ANGLE: f64 = FRAC_PI_4;
 /// The options of remeshing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// The wanted number of triangles, at least 4.
+    /// The wanted number of triangles, from 4 to [`MAX_FACES`].
     pub faces: usize,
     /// Edges whose faces' normals differ by more than this, in radians, stay sharp; none do where it is pi.
     pub crease_angle: f64,
@@ -44,6 +45,12 @@ pub struct Remeshed {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
+    /// More triangles than a mesh may have.
+    #[error("{wanted} faces were asked for; the limit is {MAX_FACES}")]
+    TooManyFaces {
+        /// The number of faces that was asked for.
+        wanted: usize,
+    },
     /// No closed surface has so few triangles, or none of this shape that the method finds.
     #[error(
         "{wanted} faces are too few for this shape: {} faces are left where no more edges can go",
@@ -82,7 +89,7 @@ const AIM: f64 = 0.02;
 /// Remeshes a closed surface.
 ///
 /// # Errors
-/// [`Error`] where the number of faces is not within 5 % of the wanted one (or within one face) at the end, or on request.
+/// [`Error`] where the wanted number of faces is too large, the reached one is not within 5 % of the wanted one (or within one face) at the end, or on request.
 pub fn remesh(
     surface: &SurfaceMesh,
     options: &Options,
@@ -92,6 +99,9 @@ pub fn remesh(
     let wanted = options.faces;
     if wanted < 4 {
         return Err(Error::TooFewFaces { wanted, reached: 4 });
+    }
+    if wanted > MAX_FACES {
+        return Err(Error::TooManyFaces { wanted });
     }
     let original = SurfaceIndex::new(surface);
     // The length is that of equilateral triangles.

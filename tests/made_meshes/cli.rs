@@ -581,6 +581,8 @@ fn open_meshes_are_capped_and_the_map_says_so() {
     let output = map(&[OsStr::new("--out"), out.as_os_str(), OsStr::new("--report"), report.as_os_str()]);
     let said = errors(&output);
     assert!(output.status.success() && said.contains("certified bijective"), "{said}");
+    assert!(said.contains("without map.conemap: a mesh was repaired"), "{said}");
+    assert!(!out.join("map.conemap").exists() && out.join("vertex-images.csv").exists());
     assert!(
         said.contains("The target could not be mapped as it is and was repaired: 1 hole was capped ("),
         "{said}"
@@ -785,10 +787,11 @@ fn bad_cones_are_refused_by_line() {
     let folder = folder("bad_cones_are_refused_by_line");
     let [mesh, _, _] = write_bodies(&folder);
     let list = folder.join("cones.txt");
-    let cases: [(&str, &[&str]); 3] = [
+    let cases: [(&str, &[&str]); 4] = [
         ("0 1.0\nthree 2.0\n", &["cones.txt", "line 2"]),
         ("0 1.0\n999999 2.0\n", &["cones.txt", "line 2", "999999"]),
-        ("0 1.0\n", &["4 pi"]),
+        ("0 1.0\n3 2.0\n0 2.0\n", &["cones.txt, line 3", "vertex 0 has an angle defect on line 1"]),
+        ("0 1.0\n", &["cones.txt", "4 pi"]),
     ];
     for (text, words) in cases {
         std::fs::write(&list, text).unwrap();
@@ -938,7 +941,8 @@ fn bad_remeshing_is_refused_in_a_sentence() {
     let [source, _, _] = write_bodies(&folder);
     let [missing, noise] = ["missing.obj", "noise.obj"].map(|name| folder.join(name));
     std::fs::write(&noise, "this is not a mesh\n").unwrap();
-    let cases: [(&Path, &str, &str, &[&str]); 6] = [
+    let cases: [(&Path, &str, &str, &[&str]); 7] = [
+        (&source, "4000000000", "new.obj", &["source.obj", "4000000000 faces were asked for; the limit is"]),
         (&source, "3", "new.obj", &["source.obj", "3 faces are too few"]),
         (&source, "0", "new.obj", &["source.obj", "0 faces are too few"]),
         (&source, "300", "new.stl", &["new.stl", ".obj, .off, .ply"]),
@@ -1003,6 +1007,14 @@ fn landmark_files_are_converted_there_and_back() {
             .unwrap()
             .starts_with(" pair        source        target  label\n    1")
     );
+
+    let soft = folder.join("soft.json");
+    file.radii = Some(vec![0.05; file.pairs.len()]);
+    std::fs::write(&soft, landmark_file::write(&file)).unwrap();
+    for (name, is_lost) in [("soft.csv", true), ("soft-again.json", false)] {
+        let told = landmarks(meshes, &[&soft], &[&folder.join(name)], &[]);
+        assert!(told.status.success() && errors(&told).contains("no radii") == is_lost, "{}", errors(&told));
+    }
 
     let says = |output: std::process::Output| {
         assert_eq!(output.status.code(), Some(1));

@@ -87,7 +87,7 @@ pub struct RepairArguments {
     #[arg(long)]
     pub cut_handles: bool,
     /// Join vertices on open edges that are within this distance, in the file's units; otherwise only those at the same place.
-    #[arg(long, value_name = "DISTANCE", default_value_t = RepairOptions::default().join_within, value_parser = distance)]
+    #[arg(long, value_name = "DISTANCE", default_value_t = RepairOptions::default().join_within, value_parser = distance, allow_negative_numbers = true)]
     pub join_within: f64,
 }
 
@@ -145,11 +145,11 @@ pub struct MapArguments {
     pub choices: Choices,
     /// Finish from then on with the best map so far: less relaxed, but whole and certified. Ctrl-C does the same; pressed
     /// twice it ends without a map.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub time_limit: Option<Duration>,
     /// End within this time, with a map or with a sentence that says how far it came: from half of it on finish as with
     /// --time-limit.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub deadline: Option<Duration>,
     /// Refuse meshes whose map may take more memory than that.
     #[arg(long, value_name = "MIB", help = memory_help())]
@@ -225,7 +225,7 @@ pub struct WrapArguments {
     pub choices: Choices,
     /// Finish from then on with the best map so far: less relaxed, but whole and certified. Ctrl-C does the same; pressed
     /// twice it ends without a map.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub time_limit: Option<Duration>,
     /// What becomes of meshes with faults.
     #[command(flatten)]
@@ -363,7 +363,7 @@ pub struct SuggestArguments {
     #[arg(help = mesh_help("Mesh"))]
     pub mesh: PathBuf,
     /// How many at most.
-    #[arg(long, default_value_t = USUAL_COUNT)]
+    #[arg(long, default_value_t = USUAL_COUNT, allow_negative_numbers = true)]
     pub count: usize,
     /// Vertices (0-based) that are landmarks already: the suggestions keep away from them.
     #[arg(long, value_name = "VERTEX", value_delimiter = ',')]
@@ -477,10 +477,10 @@ pub struct RemeshArguments {
     #[arg(help = mesh_help("Mesh"))]
     pub mesh: PathBuf,
     /// The wanted number of triangles; the result is within 5 % of it.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub faces: usize,
     /// Edges whose faces' normals differ by more than this stay sharp; 180 for none.
-    #[arg(long, value_name = "DEGREES", default_value_t = USUAL_CREASE_ANGLE.to_degrees(), value_parser = degrees)]
+    #[arg(long, value_name = "DEGREES", default_value_t = USUAL_CREASE_ANGLE.to_degrees(), value_parser = degrees, allow_negative_numbers = true)]
     pub crease_angle: f64,
     /// File for the new mesh.
     #[arg(long, help = written_help("File for the new mesh"))]

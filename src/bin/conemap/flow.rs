@@ -5,16 +5,18 @@ use crate::clock::Clock;
 use crate::input::{self, Failure};
 use crate::outputs;
 use conemap::cone_metric::{FlowError, FlowOptions, flow, listed_curvature};
+use conemap::mesh::check::CheckedMesh;
 use conemap::monitor::{Monitor, Stage};
 use conemap::pipeline::ConeMetricReport;
 use serde_json::json;
+use std::collections::BTreeMap;
 
 /// Runs one flow and writes its report; an error where it did not converge.
 pub fn run(arguments: &FlowArguments) -> Result<(), Failure> {
     outputs::check([&arguments.mesh, &arguments.cones], arguments.report.clone())?;
     let checked = input::mesh(&arguments.mesh, arguments.faults)?;
     let mesh = &checked.mesh;
-    let cones = cones(arguments, &checked.vertex_from_file)?;
+    let cones = cones(arguments, &checked)?;
     let curvature = listed_curvature(mesh.vertex_count(), &cones)?;
     let options = FlowOptions { scheme: arguments.scheme, ..FlowOptions::default() };
     let mut clock = Clock::start_only(Stage::SourceConeMetric);
@@ -26,6 +28,9 @@ pub fn run(arguments: &FlowArguments) -> Result<(), Failure> {
         Err(FlowError::NotConverged { best, report }) => {
             let failure = FlowError::NotConverged { best, report: report.clone() };
             (*report, Some(failure))
+        }
+        Err(error @ FlowError::Target(_)) => {
+            return Err(format!("{}: {error}", arguments.cones.display()).into());
         }
         Err(error) => return Err(error.into()),
     };
@@ -44,15 +49,13 @@ pub fn run(arguments: &FlowArguments) -> Result<(), Failure> {
     failure.map_or(Ok(()), |error| Err(error.into()))
 }
 
-/// Reads lines `vertex angle_defect`.
-fn cones(
-    arguments: &FlowArguments,
-    vertex_from_file: &[Option<conemap::mesh::VertexId>],
-) -> Result<Vec<(usize, f64)>, Failure> {
+/// Reads lines `vertex angle_defect`, with no vertex on two of them.
+fn cones(arguments: &FlowArguments, checked: &CheckedMesh) -> Result<Vec<(usize, f64)>, Failure> {
     let path = arguments.cones.display();
     let text =
         String::from_utf8(input::bytes(&arguments.cones)?).map_err(|_| format!("{path}: it is not text"))?;
     let mut cones = Vec::new();
+    let mut lines = BTreeMap::new();
     for (line, content) in
         text.lines().enumerate().map(|(i, l)| (i + 1, l.split('#').next().unwrap_or_default()))
     {
@@ -65,8 +68,12 @@ fn cones(
         let (vertex, defect) = parsed.ok_or_else(|| {
             format!("{path}, line {line}: expected `vertex angle_defect`, found \"{content}\"")
         })?;
-        let known = vertex_from_file.get(vertex).copied().flatten();
-        let v = known.ok_or_else(|| format!("{path}, line {line}: the mesh has no vertex {vertex}"))?;
+        let v = input::vertex(checked, vertex).map_err(|e| format!("{path}, line {line}: {e}"))?;
+        if let Some(first) = lines.insert(v, line) {
+            return Err(
+                format!("{path}, line {line}: vertex {vertex} has an angle defect on line {first}").into()
+            );
+        }
         cones.push((v.index(), defect));
     }
     Ok(cones)

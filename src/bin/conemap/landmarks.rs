@@ -3,7 +3,7 @@
 use crate::arguments::{FaultArguments, LandmarksArguments};
 use crate::input::{self, Failure};
 use crate::outputs;
-use crate::told::print;
+use crate::told::{print, say};
 use conemap::io::landmark_formats::{LandmarkFormat, Space};
 use conemap::landmark_exchange::{PairLandmarks, Surface, write_pairs, write_side};
 use conemap::landmarks::{MeshSide, check_side};
@@ -46,6 +46,15 @@ fn write(
         arguments.format.or(named).ok_or_else(|| format!("{}: choose a format with --format", path.display()))
     };
     let told = |path: &Path, error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+    let is_soft = file.radii.iter().flatten().any(|radius| *radius > 0.0);
+    for path in arguments.outputs.iter().filter(|_| is_soft) {
+        if format(path)? != LandmarkFormat::Conemap {
+            say(format_args!(
+                "warning: {}: this format has no radii, so that all landmarks are held there; that of Conemap (.json) has them",
+                path.display()
+            ));
+        }
+    }
     match &arguments.outputs[..] {
         [] => {}
         [path] => {

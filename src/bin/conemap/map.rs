@@ -49,6 +49,10 @@ fn check_outputs(arguments: &MapArguments, method: Method) -> Result<(), Failure
     )
 }
 
+/// Why there is no map file, and what to do.
+const NO_MAP_FILE: &str = "a mesh was repaired, and a map file tells of meshes as their files have them: save the repaired mesh by \
+                           `conemap check MESH --repair --out FILE`, and map that one";
+
 fn write_map(arguments: &MapArguments, job: &Job, result: &MapResult) -> Result<(), Failure> {
     let Some(path) = &arguments.map else { return Ok(()) };
     let map = job.map_file(result, &arguments.choices);
@@ -63,6 +67,9 @@ fn write_folder(arguments: &MapArguments, job: &Job, result: &MapResult) -> Resu
     let sets = MeshSets::of(paths.map(PathBuf::as_path), meshes.each_ref().map(Vec::as_slice));
     let look = sets.look(|files| job.look(files));
     let files = job.outputs(result, &arguments.choices, &look);
+    if !job.has_map_file() {
+        say(format_args!("warning: {}: without map.conemap: {NO_MAP_FILE}", folder.display()));
+    }
     outputs::write_all(
         folder,
         files.map(|file| file.map(|file| (file.name, file.bytes)).map_err(Failure::from)),
@@ -77,11 +84,7 @@ fn made(arguments: &MapArguments, asked: &Asked<'_>, clock: &mut Clock) -> Resul
         job.know_truth(&input::bytes(path)?).map_err(told)?;
     }
     if arguments.map.is_some() && !job.has_map_file() {
-        return Err(
-            "--map: a mesh was repaired, and a map file tells of meshes as their files have them: save the repaired mesh by \
-             `conemap check MESH --repair --out FILE`, and map that one"
-                .into(),
-        );
+        return Err(format!("--map: {NO_MAP_FILE}").into());
     }
     let result = asked.map(&job, clock)?;
     Ok((job, result))

@@ -34,7 +34,7 @@ pub fn run(arguments: &RemeshArguments) -> Result<(), Failure> {
         outputs::write(path, &serde_json::to_vec_pretty(&value)?)?;
     }
     say(format_args!(
-        "{} faces, edges {:.4} on the mean, least angle {:.1} degrees, largest distance {:.3e}",
+        "{} faces, edges {:.3e} on the mean, least angle {:.1} degrees, largest distance {:.3e}",
         report.faces,
         report.edge_length.mean,
         report.min_angle,

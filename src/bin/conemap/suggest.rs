@@ -16,8 +16,7 @@ pub fn run(arguments: &SuggestArguments) -> Result<(), Failure> {
     let numbers = checked.file_from_vertex();
     let mut marked = Vec::new();
     for &v in &arguments.beside {
-        let known = checked.vertex_from_file.get(v).copied().flatten();
-        marked.push(known.ok_or_else(|| format!("--beside: the mesh has no vertex {v}"))?);
+        marked.push(input::vertex(&checked, v).map_err(|e| format!("--beside: {e}"))?);
     }
     marked.sort_unstable();
     marked.dedup();
