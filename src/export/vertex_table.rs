@@ -1,5 +1,6 @@
 //! Values at the vertices of a mesh file: as a table (CSV).
 
+use crate::io::separated;
 use crate::io::vertex_table::{Column, Heading, Rows, VertexTable};
 use std::fmt::Write;
 
@@ -7,7 +8,8 @@ use std::fmt::Write;
 /// numbered and it has no values at all.
 pub fn csv(table: &VertexTable) -> Vec<u8> {
     let mut text = String::new();
-    let names = table.columns.iter().map(|column| column.name.as_str());
+    let names: Vec<String> = table.columns.iter().map(|column| separated::field(&column.name)).collect();
+    let names = names.iter().map(String::as_str);
     match &table.rows {
         Rows::Numbered(number) => push_line(&mut text, std::iter::once(number.as_str()).chain(names)),
         Rows::InOrder { heading: Heading::Named } => push_line(&mut text, names),

@@ -27,6 +27,7 @@ pub mod picture;
 mod ply;
 mod problem;
 mod reading;
+pub(crate) mod separated;
 mod stl;
 pub mod texture_coordinates;
 pub mod vertex_table;

@@ -1,11 +1,13 @@
-//! Tables of values by vertex: a line for each vertex, its fields apart by commas. A first line may name the columns; where it
-//! calls the first one `vertex`, `source_vertex` or `target_vertex`, that column has the vertex numbers and lines may come in any
-//! order. What follows `#` is left out. A vertex that no face uses needs no values.
+//! Tables of values by vertex: a line for each vertex, its fields apart by commas, in quotes or not. A first line may name the columns;
+//! where it calls the first one `vertex`, `source_vertex` or `target_vertex`, that column has the vertex numbers and lines may come in any
+//! order. A first column without a name, as R and pandas write it, counts the rows, from 0 or 1. What follows `#` is left out. A vertex that no face uses needs no values.
 
 use super::content::{AnnouncedColumn, Column, Heading, Rows, VertexTable};
 use super::number_type::NumberType;
 use crate::io::problem::{Place, Problem};
 use crate::io::reading::{content_lines, number, text};
+use crate::io::separated;
+use std::borrow::Cow;
 
 /// The length of the longest line in bytes.
 const MAX_LINE: usize = 1 << 20;
@@ -23,7 +25,7 @@ pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem
         return Err((Place::Line(1), "the table is empty".to_owned()));
     };
     check_length(first, line)?;
-    let (names, rows) = heading(first, line)?;
+    let Header { names, rows, counts } = Header::of(first, line)?;
     if !matches!(rows, Rows::InOrder { heading: Heading::Missing }) {
         lines.next();
     }
@@ -32,7 +34,7 @@ pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem
             format!("{} columns for {vertices} vertices are more than {MAX_VALUES} values", names.len());
         return Err((Place::Line(first), problem));
     }
-    let mut filling = Filling::new(names, vertices);
+    let mut filling = Filling::new(names, counts, vertices);
     for (row, (line, content)) in lines.enumerate() {
         check_length(line, content)?;
         filling.line(line, row, content, &rows)?;
@@ -40,20 +42,45 @@ pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem
     filling.finish(rows)
 }
 
-/// The names of the columns of values of a table that begins with this line, and how its rows tell their vertex.
-fn heading(number: usize, line: &str) -> Result<(Vec<String>, Rows), Problem> {
-    let mut names: Vec<String> = line.split(',').map(|name| name.trim().to_owned()).collect();
-    let is_named = names.iter().any(|name| name.parse::<f64>().is_err() && !name.is_empty());
-    if !is_named {
-        let numbered = (1..=names.len()).map(|k| k.to_string()).collect();
-        return Ok((numbered, Rows::InOrder { heading: Heading::Missing }));
+/// What the first line of a table says.
+struct Header {
+    /// The names of the columns of values.
+    names: Vec<String>,
+    /// The way in which rows tell their vertex.
+    rows: Rows,
+    /// Whether a column before them counts the rows.
+    counts: bool,
+}
+
+impl Header {
+    fn of(number: usize, line: &str) -> Result<Self, Problem> {
+        let mut names: Vec<String> = fields(line).into_iter().map(Cow::into_owned).collect();
+        let is_named = names.iter().any(|name| name.parse::<f64>().is_err() && !name.is_empty());
+        if !is_named {
+            let names = (1..=names.len()).map(|k| k.to_string()).collect();
+            return Ok(Self { names, rows: Rows::InOrder { heading: Heading::Missing }, counts: false });
+        }
+        let counts = names[0].is_empty();
+        if counts {
+            names.remove(0);
+        }
+        check_names(number, &names, usize::from(counts))?;
+        let is_numbered = !counts && NUMBERS.contains(&names[0].as_str());
+        let rows = if is_numbered {
+            Rows::Numbered(names.remove(0))
+        } else {
+            Rows::InOrder { heading: Heading::Named }
+        };
+        Ok(Self { names, rows, counts })
     }
-    check_names(number, &names)?;
-    if NUMBERS.contains(&names[0].as_str()) {
-        let rows = Rows::Numbered(names.remove(0));
-        return Ok((names, rows));
+}
+
+/// The fields of a line, without the spaces around them.
+fn fields(line: &str) -> Vec<Cow<'_, str>> {
+    if line.contains('"') {
+        return separated::fields(line, ',').into_iter().map(Cow::Owned).collect();
     }
-    Ok((names, Rows::InOrder { heading: Heading::Named }))
+    line.split(',').map(|field| Cow::Borrowed(field.trim())).collect()
 }
 
 /// The columns of values that the first line of a table announces, and whether the line is one of a table at all: it has commas, or
@@ -70,7 +97,7 @@ pub(super) fn announced(bytes: &[u8]) -> Result<Option<Vec<AnnouncedColumn>>, Pr
         return Ok(None);
     }
     let column = |name| AnnouncedColumn { name, number_type: NumberType::Double };
-    Ok(Some(heading(first, line)?.0.into_iter().map(column).collect()))
+    Ok(Some(Header::of(first, line)?.names.into_iter().map(column).collect()))
 }
 
 fn check_length(line: usize, content: &str) -> Result<(), Problem> {
@@ -81,9 +108,10 @@ fn check_length(line: usize, content: &str) -> Result<(), Problem> {
     Ok(())
 }
 
-fn check_names(line: usize, names: &[String]) -> Result<(), Problem> {
+/// Refuses columns without a name, and two of one name; `before` columns stand before them.
+fn check_names(line: usize, names: &[String], before: usize) -> Result<(), Problem> {
     if let Some(k) = names.iter().position(String::is_empty) {
-        return Err((Place::Line(line), format!("column {} has no name", k + 1)));
+        return Err((Place::Line(line), format!("column {} has no name", before + k + 1)));
     }
     let mut sorted: Vec<&String> = names.iter().collect();
     sorted.sort_unstable();
@@ -100,17 +128,48 @@ struct Filling {
     line_of: Vec<usize>,
     /// Number of rows so far.
     rows: usize,
+    /// The count of the first row, where a first column counts them.
+    count: Option<Counting>,
+}
+
+/// A column that counts the rows.
+enum Counting {
+    /// The first row is not read yet.
+    Unknown,
+    /// From this number on.
+    From(usize),
 }
 
 impl Filling {
     /// Memory is taken as rows come, not as the mesh is large.
-    fn new(names: Vec<String>, vertices: usize) -> Self {
+    fn new(names: Vec<String>, counts: bool, vertices: usize) -> Self {
         let column = |name| Column { name, number_type: NumberType::Double, values: Vec::new() };
-        Self { columns: names.into_iter().map(column).collect(), line_of: vec![0; vertices], rows: 0 }
+        let columns = names.into_iter().map(column).collect();
+        Self { columns, line_of: vec![0; vertices], rows: 0, count: counts.then_some(Counting::Unknown) }
+    }
+
+    /// Checks the field of a column that counts the rows.
+    fn check_count(&mut self, line: usize, row: usize, field: &str) -> Result<(), Problem> {
+        let given = field.parse::<usize>().ok();
+        let first = match (&self.count, given) {
+            (Some(Counting::From(first)), _) => *first,
+            (_, Some(first @ (0 | 1))) => first,
+            _ => usize::MAX,
+        };
+        if given.is_none() || given != first.checked_add(row) {
+            let problem = "the first column has no name and does not count the rows: call it `vertex` where it has the numbers of vertices";
+            return Err((Place::Line(line), problem.to_owned()));
+        }
+        self.count = Some(Counting::From(first));
+        Ok(())
     }
 
     fn line(&mut self, line: usize, row: usize, content: &str, rows: &Rows) -> Result<(), Problem> {
-        let mut fields = content.split(',').map(str::trim);
+        let fields = fields(content);
+        let mut fields = fields.iter().map(Cow::as_ref);
+        if self.count.is_some() {
+            self.check_count(line, row, fields.next().unwrap_or_default())?;
+        }
         let vertex = match rows {
             Rows::InOrder { .. } => row,
             Rows::Numbered(_) => number(fields.next(), line, "a vertex number")?,

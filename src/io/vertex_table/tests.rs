@@ -28,6 +28,29 @@ fn rows_in_order_and_numbered_rows_are_read() {
 }
 
 #[test]
+fn tables_of_r_and_pandas_are_read() {
+    let of_r = csv("\"\",\"heat\",\"left, upper\"\n\"1\",1.5,0.25\n\"2\",-2,3\n", 2).unwrap();
+    let of_pandas = csv(",heat,\"left, upper\"\n0,1.5,0.25\n1,-2,3\n", 2).unwrap();
+    for table in [of_r, of_pandas] {
+        assert_eq!(values(&table), [[Some(1.5), Some(-2.0)], [Some(0.25), Some(3.0)]]);
+        assert_eq!(
+            table.columns.iter().map(|c| c.name.as_str()).collect::<Vec<_>>(),
+            ["heat", "left, upper"]
+        );
+        // Names come out in quotes where they have commas.
+        let back = crate::export::vertex_table::csv(&table);
+        assert_eq!(csv(std::str::from_utf8(&back).unwrap(), 2).unwrap(), table);
+    }
+    let uncounted = "the first column has no name and does not count the rows: call it `vertex` where it has the numbers of vertices";
+    for (text, line) in
+        [(",a\n2,1\n3,1\n", 2), (",a\n0,1\n0,1\n", 3), (",a\nA,1\nB,1\n", 2), (",a\n1,1\n,1\n", 3)]
+    {
+        assert_eq!(csv(text, 2), Err(format!("line {line}: {uncounted}")), "{text}");
+    }
+    assert_eq!(csv(",a,\n0,1,2\n", 1), Err("line 1: column 3 has no name".to_owned()));
+}
+
+#[test]
 fn faults_are_told_with_their_line() {
     let cases = [
         ("", "line 1: the table is empty"),
