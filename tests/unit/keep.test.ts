@@ -36,6 +36,8 @@ const pick = (point: number): Event => ({ kind: 'point-picked', side: 0, point }
 
 /** The locks that the tabs of one browser share. */
 let locks: Map<string, Tab>;
+/** All tabs of a test. */
+let tabs: Tab[];
 let ids: number;
 let clock: number;
 let database: Database;
@@ -51,6 +53,7 @@ class Tab {
 
   /** `memory` is what the browser returns to a tab after a reload. */
   constructor(memory = new Map<string, string>(), around: Partial<Surroundings> = {}) {
+    tabs.push(this);
     this.memory = memory;
     this.keeper = new Keeper(this.store, {
       open: (closed) => Database.open(closed),
@@ -159,12 +162,15 @@ beforeEach(async () => {
   });
   vi.spyOn(console, 'warn').mockReturnValue();
   locks = new Map();
+  tabs = [];
   ids = 1;
   clock = 1;
   database = await Database.open(() => undefined);
 });
 
-afterEach(() => {
+afterEach(async () => {
+  // A mesh is written at once: no writing may end in the next test.
+  await Promise.all(tabs.map((tab) => tab.keeper.flush()));
   database.close();
 });
 
