@@ -6,12 +6,16 @@ use crate::mesh::face_weights::{FaceWeight, FaceWeights};
 use crate::mesh::surface_index::SurfaceIndex;
 use crate::mesh::{FaceId, SurfaceMesh};
 use glam::DVec3;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use typed_index_collections::{TiSlice, TiVec};
 
 /// A full mesh with caps, with the weights of its faces.
 pub struct Skin<'a> {
     weights: &'a TiSlice<FaceId, FaceWeight>,
     index: SurfaceIndex<'a>,
+    /// The weights on the levels that were asked for, by their numbers of vertices: every map of the mesh passes the same levels.
+    known: RefCell<BTreeMap<usize, TiVec<FaceId, FaceWeight>>>,
 }
 
 /// Places in a coarse face at which the full mesh's weights are sampled: the middles of its quarters, in barycentric coordinates.
@@ -29,7 +33,7 @@ const SAMPLES: [[f64; 3]; 4] = {
 impl<'a> Skin<'a> {
     /// A mesh with the weights of its faces.
     pub fn new(mesh: &'a SurfaceMesh, weights: &'a TiSlice<FaceId, FaceWeight>) -> Self {
-        Self { weights, index: SurfaceIndex::new(mesh) }
+        Self { weights, index: SurfaceIndex::new(mesh), known: RefCell::default() }
     }
 
     /// The weights of the full mesh's faces.
@@ -37,11 +41,17 @@ impl<'a> Skin<'a> {
         FaceWeights::new(Some(self.weights))
     }
 
-    /// The weights of a level's faces: each the mean of the nearest full faces at four places.
+    /// The weights of the faces of a level of the mesh: each the mean of the nearest full faces at four places.
     pub fn on_level(&self, level: &Level) -> TiVec<FaceId, FaceWeight> {
         if level.mesh.face_count() == self.weights.len() {
             return level.faces.iter().map(|&f| self.weights[f]).collect();
         }
+        let count = level.mesh.vertex_count();
+        self.known.borrow_mut().entry(count).or_insert_with(|| self.sampled(level)).clone()
+    }
+
+    /// The weights of the faces of a level, sampled on the full mesh.
+    fn sampled(&self, level: &Level) -> TiVec<FaceId, FaceWeight> {
         let weight = |f: FaceId| {
             let [a, b, c] = level.mesh.corners(f);
             let normal: DVec3 = (b - a).cross(c - a);

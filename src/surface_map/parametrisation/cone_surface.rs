@@ -60,7 +60,7 @@ impl ConeSurface {
 
 impl ConeSurface {
     /// The cone surface of a layout: lengths are the means of the landmarks' chord lengths on source and target, or powers of them
-    /// ([`BENT`]) where three landmarks are in line on both meshes.
+    /// where three landmarks are in line on both meshes.
     pub fn of_layout(layout: &BaseLayout) -> Self {
         let mesh = &layout.base.mesh;
         let chord = |side: &PatchedMesh, h: HalfedgeId| {

@@ -75,7 +75,7 @@ const DEEP: f64 = 10.0;
 
 /// Moves the vertices of the worst pieces; `overlay` is that of both sides. `None` where there is no dent, or nothing helps.
 ///
-/// Positive triangles stay positive, and E grows by at most [`MOST_RAISE`]. Once the monitor wants a result, no second sweep begins.
+/// Positive triangles stay positive, and E grows by .02 at most. Once the monitor wants a result, no second sweep begins.
 ///
 /// # Errors
 /// [`Cancelled`].
