@@ -1,10 +1,9 @@
 //! Tests on bodies with sharp edges: their flat faces are slivers, and many of their landmarks lie in line.
 
-use conemap::landmarks::Landmarks;
+use crate::points::with_landmarks_at;
 use conemap::math::scalar::{cos, sin};
-use conemap::mesh::{SurfaceMesh, VertexId};
-use conemap::monitor::Silent;
-use conemap::pipeline::{CapFaces, DistortionReport, GroundTruth, MapInput, PipelineOptions, run};
+use conemap::mesh::{SurfaceMesh, SurfacePoint, VertexId};
+use conemap::pipeline::DistortionReport;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
@@ -65,18 +64,9 @@ fn comb(height: f64) -> SurfaceMesh {
 
 /// The distortion of the certified map between two meshes with the same vertices, these among them as landmarks.
 fn onto(source: &SurfaceMesh, target: &SurfaceMesh, landmarks: &[u32]) -> DistortionReport {
-    let pairs: Vec<[u32; 2]> = landmarks.iter().map(|&v| [v, v]).collect();
-    let landmarks = Landmarks::from_vertices(source, target, &pairs).unwrap();
-    let input = MapInput {
-        source,
-        target,
-        landmarks: &landmarks,
-        ground_truth: GroundTruth::SameConnectivity,
-        caps: CapFaces::default(),
-    };
-    let report = run(input, &PipelineOptions::default(), &mut Silent).unwrap().report;
-    assert!(report.certificate.unwrap().bijective);
-    report.distortion
+    let meshes = [source, target];
+    let at = |mesh| landmarks.iter().map(|&v| SurfacePoint::at_vertex(mesh, VertexId(v))).collect();
+    with_landmarks_at(meshes, meshes.map(at))
 }
 
 #[test]

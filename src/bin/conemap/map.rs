@@ -68,7 +68,11 @@ fn write_folder(arguments: &MapArguments, job: &Job, result: &MapResult) -> Resu
     let look = sets.look(|files| job.look(files));
     let files = job.outputs(result, &arguments.choices, &look);
     if !job.has_map_file() {
-        say(format_args!("warning: {}: without map.conemap: {NO_MAP_FILE}", folder.display()));
+        say(format_args!(
+            "warning: {}: without {}: {NO_MAP_FILE}",
+            folder.display(),
+            OutputKind::Map.file_name()
+        ));
     }
     outputs::write_all(
         folder,

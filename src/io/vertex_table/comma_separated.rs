@@ -1,6 +1,7 @@
 //! Tables of values by vertex: a line for each vertex, its fields apart by commas, in quotes or not. A first line may name the columns;
 //! where it calls the first one `vertex`, `source_vertex` or `target_vertex`, that column has the vertex numbers and lines may come in any
-//! order. A first column without a name, as R and pandas write it, counts the rows, from 0 or 1. What follows `#` is left out. A vertex that no face uses needs no values.
+//! order. A first column without a name, as R and pandas write it, counts the rows, from 0 or 1. What follows `#` is left out. A vertex that no
+//! face uses needs no values.
 
 use super::content::{AnnouncedColumn, Column, Heading, Rows, VertexTable};
 use super::number_type::NumberType;
@@ -128,16 +129,8 @@ struct Filling {
     line_of: Vec<usize>,
     /// Number of rows so far.
     rows: usize,
-    /// The count of the first row, where a first column counts them.
-    count: Option<Counting>,
-}
-
-/// A column that counts the rows.
-enum Counting {
-    /// The first row is not read yet.
-    Unknown,
-    /// From this number on.
-    From(usize),
+    /// The number of the first row in a column that counts the rows; `None` where there is no such column.
+    first_count: Option<usize>,
 }
 
 impl Filling {
@@ -145,30 +138,26 @@ impl Filling {
     fn new(names: Vec<String>, counts: bool, vertices: usize) -> Self {
         let column = |name| Column { name, number_type: NumberType::Double, values: Vec::new() };
         let columns = names.into_iter().map(column).collect();
-        Self { columns, line_of: vec![0; vertices], rows: 0, count: counts.then_some(Counting::Unknown) }
+        Self { columns, line_of: vec![0; vertices], rows: 0, first_count: counts.then_some(0) }
     }
 
-    /// Checks the field of a column that counts the rows.
-    fn check_count(&mut self, line: usize, row: usize, field: &str) -> Result<(), Problem> {
+    /// Checks the field of a column that counts the rows from `first`, or from 1 where the first row says so.
+    fn check_count(&mut self, first: usize, line: usize, row: usize, field: &str) -> Result<(), Problem> {
         let given = field.parse::<usize>().ok();
-        let first = match (&self.count, given) {
-            (Some(Counting::From(first)), _) => *first,
-            (_, Some(first @ (0 | 1))) => first,
-            _ => usize::MAX,
-        };
-        if given.is_none() || given != first.checked_add(row) {
+        let first = if row == 0 && given == Some(1) { 1 } else { first };
+        if given != Some(first + row) {
             let problem = "the first column has no name and does not count the rows: call it `vertex` where it has the numbers of vertices";
             return Err((Place::Line(line), problem.to_owned()));
         }
-        self.count = Some(Counting::From(first));
+        self.first_count = Some(first);
         Ok(())
     }
 
     fn line(&mut self, line: usize, row: usize, content: &str, rows: &Rows) -> Result<(), Problem> {
         let fields = fields(content);
         let mut fields = fields.iter().map(Cow::as_ref);
-        if self.count.is_some() {
-            self.check_count(line, row, fields.next().unwrap_or_default())?;
+        if let Some(first) = self.first_count {
+            self.check_count(first, line, row, fields.next().unwrap_or_default())?;
         }
         let vertex = match rows {
             Rows::InOrder { .. } => row,

@@ -4,7 +4,7 @@ use crate::base_domain::BaseDomain;
 use crate::landmarks::LandmarkId;
 use crate::layout::{BaseLayout, PatchedMesh};
 use crate::math::rigid2::Rigid2;
-use crate::math::scalar::{exp, ln};
+use crate::math::scalar::pow;
 use crate::math::triangle;
 use crate::mesh::{FaceId, HalfedgeId};
 use glam::DVec2;
@@ -76,7 +76,7 @@ impl ConeSurface {
             triangle::area_from_lengths(a, b, c) < FLAT * longest * longest
         };
         if mesh.faces().any(is_flat) {
-            lengths.iter_mut().for_each(|length| *length = exp(BENT * ln(*length)));
+            lengths.iter_mut().for_each(|length| *length = pow(*length, BENT));
         }
         Self::from_lengths(layout.base.clone(), lengths)
     }

@@ -450,7 +450,7 @@ mod tests {
         let sides = sides(&layout, &start);
         let (overlay, measured) = overlaid(sides, &surface);
         let sheets = sheets(sides, &overlay, &mut Silent).unwrap();
-        let energy = DentEnergy { brink: f64::INFINITY, energy: MapEnergy::PLAIN };
+        let energy = DentEnergy::NONE;
         for v in free_vertices(sides[0]) {
             let star = CoveredStar::around(&sheets[0], &sheets[1], v);
             assert!(star.is_covered, "{v:?}");
