@@ -56,6 +56,7 @@ pub fn without_layout_points<'a>(
         mesh: CollapsibleMesh::new(&patched.mesh),
         positions: patched.mesh.positions(),
         landmarks: &patched.landmark_vertices,
+        heirs: &patched.landmark_vertices,
     };
     let mut refined = ParametrisedLevel::on_level(refined, surface.clone(), embedding, |h| h);
     let mut left: Vec<VertexId> = (first..patched.mesh.vertex_count()).map(VertexId::from).collect();
@@ -85,6 +86,7 @@ pub fn without_layout_points<'a>(
         mesh: mesh.mesh.clone(),
         positions: mesh.full.positions(),
         landmarks: mesh.landmarks,
+        heirs: mesh.heirs,
     };
     Ok(ParametrisedLevel::on_level(full, surface.clone(), &embedding, same))
 }

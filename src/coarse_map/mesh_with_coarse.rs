@@ -15,7 +15,10 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 pub struct MeshWithCoarse<'a> {
     /// The full mesh, of area 1.
     pub(super) full: &'a SurfaceMesh,
+    /// The vertex of each landmark on coarse levels.
     pub(super) landmarks: &'a TiSlice<LandmarkId, VertexId>,
+    /// The vertex of each landmark on the full mesh.
+    pub(super) heirs: &'a TiSlice<LandmarkId, VertexId>,
     pub(super) mesh: CollapsibleMesh,
     /// The weights of the full mesh's faces; `None` where all are skin.
     pub(super) skin: Option<Skin<'a>>,
@@ -36,7 +39,8 @@ impl<'a> MeshWithCoarse<'a> {
         rims: RimOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let (full, landmarks) = (&landmarked.refined.mesh, landmarked.landmarks.as_slice());
+        let full = &landmarked.refined.mesh;
+        let (landmarks, heirs) = (landmarked.stand_ins(), landmarked.landmarks.as_slice());
         let mut is_landmark = ti_vec![false; full.vertex_count()];
         landmarks.iter().for_each(|&v| is_landmark[v] = true);
         let mut is_kept: TiVec<VertexId, bool> = ti_vec![false; full.vertex_count()];
@@ -44,6 +48,10 @@ impl<'a> MeshWithCoarse<'a> {
         on_rims.into_iter().for_each(|v| is_kept[v] = true);
         monitor.step(Step::default())?;
         let mut mesh = CollapsibleMesh::new(full);
+        for (&heir, &v) in heirs.iter().zip(landmarks).filter(|(heir, v)| heir != v) {
+            let along = mesh.star(heir).find(|&h| mesh.head(h) == v);
+            along.into_iter().for_each(|h| mesh.collapse(h));
+        }
         let held = Held { cones: &is_landmark, others: &is_kept };
         let placing = match has_slivers(&mesh, full.positions()) {
             true => Placing::SliversAsMapped,
@@ -52,7 +60,7 @@ impl<'a> MeshWithCoarse<'a> {
         coarsen_around(&mut mesh, full.positions(), goal, held, monitor)?;
         let coarse = Level::of(&mesh, full.positions());
         let skin = landmarked.weights_by_face().map(|weights| Skin::new(full, weights));
-        Ok(Self { full, landmarks, mesh, skin, coarse, placing })
+        Ok(Self { full, landmarks, heirs, mesh, skin, coarse, placing })
     }
 
     /// The coarse level's vertex of each landmark.

@@ -33,7 +33,7 @@ use crate::surface_map::relaxation::dents::{self, DentOptions};
 use crate::surface_map::relaxation::map_relaxation::{self, MapRelaxationOptions, Relaxed};
 use glam::DVec3;
 use std::sync::Arc;
-use typed_index_collections::{TiSlice, TiVec};
+use typed_index_collections::TiVec;
 
 /// A map of two coarse levels: both with their parametrisations onto one cone surface.
 #[derive(Clone)]
@@ -57,8 +57,6 @@ pub struct CoarseMap<'a> {
     /// Where vertices of each mesh are put when they return.
     placing: [Placing; 2],
     skins: [Option<&'a Skin<'a>>; 2],
-    /// The vertex of each landmark on each full mesh, the source first.
-    landmarks: [&'a TiSlice<LandmarkId, VertexId>; 2],
 }
 
 /// A scale that is off by less than this is kept: 1 % moves the rim of a patch that is registered rigidly by less than the noise that
@@ -94,7 +92,6 @@ pub fn solve_coarse<'a>(
         full: [meshes[0].full, meshes[1].full],
         placing: [meshes[0].placing, meshes[1].placing],
         skins: [meshes[0].skin.as_ref(), meshes[1].skin.as_ref()],
-        landmarks: [meshes[0].landmarks, meshes[1].landmarks],
     };
     map.relax(&options.judge, monitor)?;
     Ok(map)
@@ -192,7 +189,8 @@ impl CoarseMap<'_> {
     fn present(&self) -> [PresentLevel; 2] {
         [0, 1].map(|k| {
             let Snapshot { level, mut embedding } = self.levels[k].snapshot();
-            let landmarks: TiVec<LandmarkId, VertexId> = level.numbers(self.landmarks[k]).collect();
+            let landmarks: TiVec<LandmarkId, VertexId> =
+                level.numbers(&self.levels[k].landmark_vertices()).collect();
             mend_anchors(&mut embedding, &level.mesh, &landmarks, &self.surface);
             let weights = self.skins[k].map(|skin| skin.on_level(&level));
             PresentLevel { level, landmarks, embedding, weights }

@@ -34,3 +34,16 @@ fn the_demo_has_as_good_a_map_onto_slivers() {
         .map(|target| with_points([&demo.source, target], [&vertices[0], &vertices[1]], [1.0, 0.0, 0.0]));
     assert!(onto_slivers.energy < 1.01 * as_it_is.energy, "{} {}", as_it_is.energy, onto_slivers.energy);
 }
+
+/// A landmark near an edge makes a needle, whose long side is straight while its image bends around the cone.
+#[test]
+fn landmarks_near_edges_make_no_dents() {
+    let demo = demo::build("horse-turning").unwrap();
+    let side = |k: usize| demo.landmarks.iter().map(|pair| VertexId(pair[k])).collect::<Vec<_>>();
+    let vertices = [side(0), side(1)];
+    let map = |weights| with_points([&demo.source, &demo.target], [&vertices[0], &vertices[1]], weights);
+    let (on, near) = (map([0.5, 0.5, 0.0]), map([0.5, 0.4992, 0.0008]));
+    println!("{on:?} {near:?}");
+    assert!((near.energy / on.energy - 1.0).abs() < 0.005, "{} {}", on.energy, near.energy);
+    assert!(near.max < 2.0 * on.max, "{} {}", on.max, near.max);
+}

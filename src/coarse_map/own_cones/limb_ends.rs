@@ -108,7 +108,7 @@ fn ends(
     let level = &present.levels[side];
     let weights = &present.weights()[side];
     let root = level.mesh.area().sqrt();
-    let landmarks: Vec<VertexId> = level.numbers(&full[side].landmarks).collect();
+    let landmarks: Vec<VertexId> = level.numbers(full[side].stand_ins()).collect();
     let distances = ManyDistances::on(&level.mesh);
     let mut found = Vec::new();
     for vertex in tips(&level.mesh, APART * root, &mut Portion::new(monitor, 0.0, 0.0))? {

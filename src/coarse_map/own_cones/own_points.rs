@@ -56,7 +56,7 @@ pub(super) fn pairs(
     let [source, target] = &images.levels;
     let weights = images.weights();
     let mesh = &source.mesh;
-    let user: Vec<VertexId> = source.numbers(&full[0].landmarks).collect();
+    let user: Vec<VertexId> = source.numbers(full[0].stand_ins()).collect();
     let mut free = vec![true; mesh.vertex_count()];
     user.iter().for_each(|&v| free[v.index()] = false);
     let before: Vec<VertexId> = before.iter().filter_map(|v| source.vertices.binary_search(v).ok()).collect();
@@ -150,8 +150,8 @@ pub(super) fn with(
     let (Some((mut source, from)), Some((mut target, onto))) = both else { return Ok(None) };
     for (s, t) in from.into_iter().zip(onto) {
         if !target.landmarks.contains(&t) {
-            source.landmarks.push(s);
-            target.landmarks.push(t);
+            source.push_landmark(s);
+            target.push_landmark(t);
         }
     }
     Ok(Some([source, target]))

@@ -369,7 +369,7 @@ fn guesses(
 ) -> Result<TiVec<VertexId, Guess>, Cancelled> {
     let [source, target] = &present.levels;
     let landmarks = [(source, &full[0]), (target, &full[1])]
-        .map(|(level, full)| level.numbers(&full.landmarks).collect());
+        .map(|(level, full)| level.numbers(full.stand_ins()).collect());
     let [on_source, on_target]: [Vec<VertexId>; 2] = landmarks;
     distance_guess::guess([&source.mesh, &target.mesh], [&on_source, &on_target], monitor)
 }

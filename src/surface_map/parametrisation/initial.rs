@@ -93,8 +93,12 @@ fn on_charts<'a>(
         anchors[landmark[mesh.tail(h)]] = Anchor { corner: h, chart, motion: Rigid2::IDENTITY };
     }
     let places: Vec<HalfedgeId> = halfedges.iter().map(|&h| base_halfedge(&mesh, h)).collect();
-    let level =
-        LandmarkedLevel { mesh, positions: patched.mesh.positions(), landmarks: &patched.landmark_vertices };
+    let level = LandmarkedLevel {
+        mesh,
+        positions: patched.mesh.positions(),
+        landmarks: &patched.landmark_vertices,
+        heirs: &patched.landmark_vertices,
+    };
     let mut level = ParametrisedLevel::new(level, surface.clone(), anchors);
     for (&h, b) in halfedges.iter().zip(places) {
         level.set(h, surface.charts[b.face()][b.corner()], surface.transitions[b]);

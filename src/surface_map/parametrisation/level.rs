@@ -29,8 +29,10 @@ pub struct LandmarkedLevel<'a> {
     pub mesh: CollapsibleMesh,
     /// Positions of all vertices of the full resolution.
     pub positions: &'a TiSlice<VertexId, DVec3>,
-    /// The vertex of each landmark.
+    /// The vertex of each landmark on this level.
     pub landmarks: &'a TiSlice<LandmarkId, VertexId>,
+    /// The vertex of each landmark at full resolution: the same one, or one that was removed into it.
+    pub heirs: &'a TiSlice<LandmarkId, VertexId>,
 }
 
 /// Where a vertex that returns is put.
@@ -50,6 +52,8 @@ pub struct ParametrisedLevel<'a> {
     positions: &'a TiSlice<VertexId, DVec3>,
     surface: Arc<ConeSurface>,
     is_landmark: TiVec<VertexId, bool>,
+    /// Whether each vertex becomes a landmark in place of its neighbour when it returns.
+    is_heir: TiVec<VertexId, bool>,
     corners: TiVec<HalfedgeId, DVec2>,
     transitions: TiVec<HalfedgeId, Rigid2>,
     anchors: TiVec<LandmarkId, Anchor>,
@@ -72,15 +76,18 @@ impl<'a> ParametrisedLevel<'a> {
         surface: Arc<ConeSurface>,
         anchors: TiVec<LandmarkId, Anchor>,
     ) -> Self {
-        let LandmarkedLevel { mesh, positions, landmarks } = level;
+        let LandmarkedLevel { mesh, positions, landmarks, heirs } = level;
         let slots = mesh.face_slots() * 3;
         let mut is_landmark = ti_vec![false; positions.len()];
         landmarks.iter().for_each(|&v| is_landmark[v] = true);
+        let mut is_heir = ti_vec![false; positions.len()];
+        heirs.iter().for_each(|&v| is_heir[v] = !is_landmark[v]);
         Self {
             mesh,
             positions,
             surface,
             is_landmark,
+            is_heir,
             corners: ti_vec![DVec2::ZERO; slots],
             transitions: ti_vec![Rigid2::IDENTITY; slots],
             anchors,
@@ -114,6 +121,11 @@ impl<'a> ParametrisedLevel<'a> {
     /// Positions of all vertices of the full resolution.
     pub fn positions(&self) -> &'a TiSlice<VertexId, DVec3> {
         self.positions
+    }
+
+    /// The present vertex of each landmark.
+    pub fn landmark_vertices(&self) -> TiVec<LandmarkId, VertexId> {
+        self.anchors.iter().map(|anchor| self.mesh.tail(anchor.corner)).collect()
     }
 
     /// Number of vertices of the full resolution.
@@ -306,6 +318,9 @@ impl<'a> ParametrisedLevel<'a> {
     pub fn refine(&mut self, placing: Placing) -> Option<Result<VertexId, NoPlace>> {
         let v = self.restore()?;
         let h = self.mesh.outgoing(v);
+        if self.is_heir[v] {
+            return Some(self.hand_over(h));
+        }
         self.look_around(h);
         let low = self.place(v);
         let place = match placing {
@@ -424,6 +439,8 @@ impl<'a> ParametrisedLevel<'a> {
         Ok(report)
     }
 }
+
+mod heirs;
 
 /// The error where the star of a vertex has no kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
