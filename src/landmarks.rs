@@ -3,7 +3,7 @@
 //! A landmark picked inside a face or on an edge becomes a vertex first: the later stages see vertices only.
 
 use crate::io::landmark_file::LandmarkPoint;
-use crate::mesh::check::CheckedMesh;
+use crate::mesh::check::{CheckedMesh, NoVertex};
 use crate::mesh::insertion::{Insertion, insert};
 use crate::mesh::{FaceId, MeshError, SurfaceMesh, SurfacePoint, VertexId, ids_id as id};
 use rustc_hash::FxHashMap;
@@ -197,12 +197,13 @@ fn point(
     let mesh = &checked.mesh;
     match point {
         LandmarkPoint::Vertex(vertex) => {
-            let vertices = checked.vertex_from_file.len();
-            let vertex = vertex as usize;
-            let missing = LandmarkError::MissingVertex { side, pair, vertex, vertices };
-            let known = checked.vertex_from_file.get(vertex).ok_or(missing)?;
-            let unused = LandmarkError::UnusedVertex { side, pair, vertex };
-            Ok(SurfacePoint::at_vertex(mesh, known.ok_or(unused)?))
+            let known = checked.numbered_vertex(vertex as usize).map_err(|none| match none {
+                NoVertex::Missing { number: vertex, vertices } => {
+                    LandmarkError::MissingVertex { side, pair, vertex, vertices }
+                }
+                NoVertex::Unused { number: vertex } => LandmarkError::UnusedVertex { side, pair, vertex },
+            });
+            Ok(SurfacePoint::at_vertex(mesh, known?))
         }
         on_face @ LandmarkPoint::OnFace { face, barycentric } => {
             let known = checked.face_from_file(FaceId(face));

@@ -107,9 +107,7 @@ fn check_landmarks(file: &LandmarkFile, meshes: [&FileMesh; 2]) -> Result<(), Ma
     for (pair, points) in file.pairs.iter().enumerate() {
         for (mesh, point) in meshes.into_iter().zip(points) {
             let exists = match *point {
-                LandmarkPoint::Vertex(v) => {
-                    mesh.checked().vertex_from_file.get(v as usize).copied().flatten().is_some()
-                }
+                LandmarkPoint::Vertex(v) => mesh.checked().numbered_vertex(v as usize).is_ok(),
                 LandmarkPoint::OnFace { face, .. } => (face as usize) < mesh.mesh().face_count(),
             };
             if !exists {

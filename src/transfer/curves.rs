@@ -93,11 +93,8 @@ pub fn of_files(
 fn place_of(file: &FileMesh, point: LandmarkPoint) -> Result<Place, String> {
     match point {
         LandmarkPoint::Vertex(number) => {
-            let known = file.checked().vertex_from_file.get(number as usize).copied();
-            let vertex = known.ok_or_else(|| {
-                format!("there is no vertex {number}: the mesh file has {} vertices", file.file_vertices())
-            })?;
-            vertex.map(Place::Vertex).ok_or_else(|| format!("no face uses vertex {number}"))
+            let vertex = file.checked().numbered_vertex(number as usize);
+            vertex.map(Place::Vertex).map_err(|none| none.to_string())
         }
         LandmarkPoint::OnFace { face, barycentric } => {
             let faces = file.mesh().face_count();

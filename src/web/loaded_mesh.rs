@@ -129,8 +129,8 @@ impl LoadedMesh {
 pub(super) fn surface_point(checked: &CheckedMesh, point: LandmarkPoint) -> Option<SurfacePoint> {
     match point {
         LandmarkPoint::Vertex(v) => {
-            let known = checked.vertex_from_file.get(v as usize).copied().flatten();
-            known.map(|v| SurfacePoint::at_vertex(&checked.mesh, v))
+            let known = checked.numbered_vertex(v as usize);
+            known.ok().map(|v| SurfacePoint::at_vertex(&checked.mesh, v))
         }
         LandmarkPoint::OnFace { face, barycentric } => {
             let face = checked.face_from_file(FaceId(face))?;

@@ -97,7 +97,7 @@ pub fn mirror_target(target: &LoadedMesh, landmarks: &[u8]) -> Result<MirroredTa
     for [_, point] in &mut file.pairs {
         let on_mesh = match *point {
             LandmarkPoint::Vertex(v) => {
-                let known = target.checked.vertex_from_file.get(v as usize).copied().flatten();
+                let known = target.checked.numbered_vertex(v as usize);
                 LandmarkPoint::Vertex(known.map_or(v, |v| v.0))
             }
             LandmarkPoint::OnFace { face, barycentric } => {

@@ -20,9 +20,9 @@ use wasm_bindgen::prelude::*;
 pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str) -> Result<String, JsValue> {
     let points: Vec<LandmarkPoint> = serde_json::from_str(landmarks).map_err(|e| failure("landmarks", e))?;
     let checked: &CheckedMesh = &loaded.checked;
-    let CheckedMesh { mesh, vertex_from_file, .. } = checked;
+    let mesh = &checked.mesh;
     let nearest = |point: LandmarkPoint| match point {
-        LandmarkPoint::Vertex(v) => vertex_from_file.get(v as usize).copied().flatten(),
+        LandmarkPoint::Vertex(v) => checked.numbered_vertex(v as usize).ok(),
         LandmarkPoint::OnFace { face, barycentric } => {
             let face = checked.face_from_file(FaceId(face))?;
             Some(checked.with_file_corners(SurfacePoint { face, barycentric }).heaviest_corner(mesh))
@@ -37,7 +37,7 @@ pub fn suggest_landmarks(loaded: &LoadedMesh, landmarks: &str) -> Result<String,
     let suggestions =
         suggest(mesh, &marked, USUAL_COUNT, &mut Silent).map_err(|e| failure("cancelled", e))?;
     // What a repair made up has no number in the file, and takes no landmark.
-    let suggestions = kept(&suggestions, |v| numbers[v.index()] < vertex_from_file.len());
+    let suggestions = kept(&suggestions, |v| numbers[v.index()] < checked.vertex_from_file.len());
     let found: Vec<_> = suggestions.iter().map(entry).collect();
     Ok(serde_json::Value::from(found).to_string())
 }

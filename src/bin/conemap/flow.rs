@@ -68,7 +68,7 @@ fn cones(arguments: &FlowArguments, checked: &CheckedMesh) -> Result<Vec<(usize,
         let (vertex, defect) = parsed.ok_or_else(|| {
             format!("{path}, line {line}: expected `vertex angle_defect`, found \"{content}\"")
         })?;
-        let v = input::vertex(checked, vertex).map_err(|e| format!("{path}, line {line}: {e}"))?;
+        let v = checked.numbered_vertex(vertex).map_err(|e| format!("{path}, line {line}: {e}"))?;
         if let Some(first) = lines.insert(v, line) {
             return Err(
                 format!("{path}, line {line}: vertex {vertex} has an angle defect on line {first}").into()

@@ -6,7 +6,6 @@ use conemap::export::MeshFormat;
 use conemap::io::{self, Format, gltf_parts, material_set};
 use conemap::job::{LookFiles, MapLook, ReadMesh, read_mesh};
 use conemap::landmark_exchange::{GivenFile, PairLandmarks, Surface, compare_names, read_pairs};
-use conemap::mesh::VertexId;
 use conemap::mesh::check::CheckedMesh;
 use conemap::mesh::soup::PolygonSoup;
 use conemap::monitor::Silent;
@@ -18,15 +17,6 @@ use std::path::{Component, Path, PathBuf};
 
 /// The error with which the command line fails: a sentence.
 pub type Failure = Box<dyn Error>;
-
-/// The vertex with a number in the mesh's file; the error says why there is none.
-pub fn vertex(checked: &CheckedMesh, number: usize) -> Result<VertexId, String> {
-    match checked.vertex_from_file.get(number) {
-        Some(Some(v)) => Ok(*v),
-        Some(None) => Err(format!("no face of the mesh uses vertex {number}")),
-        None => Err(format!("the mesh has no vertex {number}")),
-    }
-}
 
 /// Reads a file, no more of it than a mesh may have: a device never ends.
 pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {

@@ -16,7 +16,7 @@ pub fn run(arguments: &SuggestArguments) -> Result<(), Failure> {
     let numbers = checked.file_from_vertex();
     let mut marked = Vec::new();
     for &v in &arguments.beside {
-        marked.push(input::vertex(&checked, v).map_err(|e| format!("--beside: {e}"))?);
+        marked.push(checked.numbered_vertex(v).map_err(|e| format!("--beside: {e}"))?);
     }
     marked.sort_unstable();
     marked.dedup();

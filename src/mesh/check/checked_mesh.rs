@@ -23,6 +23,25 @@ pub struct CheckedMesh {
     pub repaired_faces: Option<RepairedFaces>,
 }
 
+/// Why a number of a vertex of the file names none of the mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoVertex {
+    /// The number is out of range.
+    #[error("there is no vertex {number}: the mesh file has {vertices} vertices")]
+    Missing {
+        /// The number.
+        number: usize,
+        /// Number of vertices of the file.
+        vertices: usize,
+    },
+    /// No face has the vertex.
+    #[error("no face of the mesh uses vertex {number}")]
+    Unused {
+        /// The number.
+        number: usize,
+    },
+}
+
 /// Faces of a repaired mesh, beside those of the file.
 #[derive(Clone, Debug)]
 pub struct RepairedFaces {
@@ -35,6 +54,16 @@ pub struct RepairedFaces {
 }
 
 impl CheckedMesh {
+    /// The vertex of the mesh that has a number in the file.
+    ///
+    /// # Errors
+    /// [`NoVertex`] where the file has no such number, or no face uses the vertex.
+    pub fn numbered_vertex(&self, number: usize) -> Result<VertexId, NoVertex> {
+        let missing = NoVertex::Missing { number, vertices: self.vertex_from_file.len() };
+        let known = self.vertex_from_file.get(number).ok_or(missing)?;
+        known.ok_or(NoVertex::Unused { number })
+    }
+
     /// The number in the file of each of the mesh's vertices, the first one where several became one. Copies of a vertex that
     /// a repair split, and vertices that it added, have numbers from the file's number of vertices on.
     pub fn file_from_vertex(&self) -> Vec<usize> {

@@ -68,6 +68,7 @@ fn judged<E: From<MeshFault>>(
 mod tests {
     use super::*;
     use crate::mesh::SurfacePoint;
+    use crate::mesh::check::NoVertex;
     use crate::mesh::generators::{icosphere, torus};
     use glam::DVec3;
 
@@ -115,8 +116,9 @@ mod tests {
         let checked = closed_genus_zero(&soup).unwrap();
         assert_eq!((checked.mesh.vertex_count(), checked.mesh.face_count()), (8, 12));
         assert!((checked.mesh.area() - 6.0).abs() < 1e-12);
-        assert_eq!(checked.vertex_from_file[0], None);
-        assert_eq!(checked.vertex_from_file[8], Some(VertexId(7)));
+        assert_eq!(checked.numbered_vertex(0), Err(NoVertex::Unused { number: 0 }));
+        assert_eq!(checked.numbered_vertex(8), Ok(VertexId(7)));
+        assert_eq!(checked.numbered_vertex(9), Err(NoVertex::Missing { number: 9, vertices: 9 }));
         let numbers = checked.file_from_vertex();
         assert_eq!((numbers[0], numbers[7]), (1, 8));
         let values: Vec<f64> = checked.mesh.positions().iter().map(|p| p.x).collect();

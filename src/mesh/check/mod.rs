@@ -8,7 +8,7 @@ mod orientation;
 mod triangulated;
 mod vertices;
 
-pub use checked_mesh::{CheckedMesh, RepairedFaces};
+pub use checked_mesh::{CheckedMesh, NoVertex, RepairedFaces};
 pub(super) use fault::Count;
 pub use fault::{Elements, MAX_FACES, MeshFault};
 pub use judgement::closed_genus_zero;
