@@ -1,14 +1,17 @@
 //! Curves on a mesh, as users give them: polylines over its vertices or over points of its faces.
 //!
 //! OBJ: lines `l` over vertices by the numbers of the mesh's own file, which may hold its `v` lines too. Tables: `curve,vertex` or
-//! `curve,face,b0,b1,b2` with or without more columns; lines that follow each other with one name are one curve, closed where its
-//! last point is its first. JSON: `{"curves": [{"name"?, "closed"?, "points": [vertex or {"face", "barycentric"}]}]}`.
+//! `curve,face,b0,b1,b2` with or without more columns, fields in quotes or not, and before them or not a column without a name that
+//! counts the rows, as R and pandas write it; lines that follow each other with one name are one curve, closed where its last point is its
+//! first. JSON: `{"curves": [{"name"?, "closed"?, "points": [vertex or {"face", "barycentric"}]}]}`.
 
 use super::landmark_file::LandmarkPoint;
 use super::problem::{Place, Problem};
 use super::reading::{content_lines, number, text};
+use super::separated::fields;
 use super::{MAX_BYTES, obj};
 use serde::Deserialize;
+use std::borrow::Cow;
 
 /// A curve as a file gives it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -86,7 +89,7 @@ fn is_of_obj(line: &str) -> bool {
 
 /// Whether a row has a name and numbers behind it.
 fn is_row_of_curve(line: &str) -> bool {
-    let mut fields = line.split(',').take(6).map(str::trim);
+    let mut fields = fields(line, ',').take(6);
     let is_named = fields.next().is_some_and(|name| !name.is_empty() && name.parse::<f64>().is_err());
     let mut numbers = fields.peekable();
     is_named && numbers.peek().is_some() && numbers.all(|field| field.parse::<f64>().is_ok())
@@ -94,7 +97,9 @@ fn is_row_of_curve(line: &str) -> bool {
 
 /// Whether a line names the columns of a table of curves, as this program writes them or others.
 fn is_curve_heading(line: &str) -> bool {
-    let mut fields = line.split(',').map(|field| field.trim().to_ascii_lowercase());
+    let mut fields = fields(line, ',').map(|field| field.to_ascii_lowercase()).peekable();
+    // A column without a name counts the rows.
+    fields.next_if(String::is_empty);
     let is_point = |field: String| field.ends_with("vertex") || field.ends_with("face");
     fields.next().is_some_and(|name| name == "curve") && fields.next().is_some_and(is_point)
 }
@@ -145,12 +150,15 @@ fn obj(text: &str, vertices: usize) -> Result<Vec<Curve>, Problem> {
 
 fn table(text: &str) -> Result<Vec<Curve>, Problem> {
     let mut curves: Vec<Curve> = Vec::new();
-    let mut count = 0;
+    let (mut count, mut counted) = (0, 0);
     for (line, content) in content_lines(text) {
-        let fields: Vec<&str> = content.split(',').take(6).map(str::trim).collect();
+        let fields: Vec<Cow<'_, str>> = fields(content, ',').skip(counted).take(6).collect();
+        let fields: Vec<&str> = fields.iter().map(Cow::as_ref).collect();
         let is_heading =
             count == 0 && fields.get(1).is_some_and(|field| field.starts_with(char::is_alphabetic));
         if is_heading {
+            // A column without a name counts the rows.
+            counted = usize::from(fields[0].is_empty());
             continue;
         }
         count += 1;
@@ -233,6 +241,14 @@ mod tests {
         let json =
             r#"{"curves": [{"name": "belt", "closed": true, "points": [0, 1, 2]}, {"points": [7, 6]}]}"#;
         assert_eq!(curves(json).unwrap(), belt);
+        for table in [
+            "\"curve\",\"vertex\"\n\"belt\",0\n\"belt\",1\n\"belt\",2\n\"belt\",0\n\"2\",7\n\"2\",6\n",
+            "\"\",\"curve\",\"vertex\"\n\"1\",\"belt\",0\n\"2\",\"belt\",1\n\"3\",\"belt\",2\n\"4\",\"belt\",0\n\"5\",\"2\",7\n\"6\",\"2\",6\n",
+            ",curve,vertex\n0,belt,0\n1,belt,1\n2,belt,2\n3,belt,0\n4,2,7\n5,2,6\n",
+        ] {
+            assert_eq!(curves(table).unwrap(), belt, "{table}");
+        }
+        assert_eq!(curves("\"left, upper\",4\n").unwrap(), [over("left, upper", false, &[4])]);
         let on_face = LandmarkPoint::OnFace { face: 3, barycentric: [0.5, 0.5, 0.0] };
         let mixed = curves("a,3,0.5,0.5,0,1,2,3\na,4\n").unwrap();
         assert_eq!(mixed[0].points, [on_face, LandmarkPoint::Vertex(4)]);
@@ -257,6 +273,8 @@ mod tests {
             "Curve,target_face,b0,b1,b2,x,y,z\n1,0,1,0,0,0,0,0\n",
             "belt,0\nbelt,1\n",
             "a,3,0.5,0.5,0,1,2,3\n",
+            "\"\",\"curve\",\"vertex\"\n\"1\",\"1\",0\n",
+            "\"left, upper\",4\n",
         ];
         assert!(curves.iter().all(|text| is_one(text.as_bytes())));
         let others = [

@@ -3,8 +3,10 @@
 //! `l`, `p`, `s` and `r`, `a`, `s` are the coordinates in tables of 3D Slicer.
 
 use super::content::{Mark, MarkList, Space, Spot, SurfaceMarks};
-use super::text::{check_count, coordinates, field, fields, lines, position};
+use super::text::{check_count, coordinates, lines, position};
 use crate::io::problem::{Place, Problem};
+use crate::io::separated::{field, fields};
+use std::borrow::Cow;
 
 /// The columns of a table.
 pub(super) struct Columns {
@@ -18,7 +20,8 @@ pub(super) struct Columns {
 /// The columns that a header line names; `None` for a line that is no such header.
 pub(super) fn columns(header: &str) -> Option<Columns> {
     let separator = [',', ';', '\t'].into_iter().find(|sign| header.contains(*sign))?;
-    let names = fields(&header.to_ascii_lowercase(), separator);
+    let header = header.to_ascii_lowercase();
+    let names: Vec<Cow<'_, str>> = fields(&header, separator).collect();
     let column = |name: &str| names.iter().position(|n| n == name);
     let triple = |[x, y, z]: [&str; 3]| Some([column(x)?, column(y)?, column(z)?]);
     let source = triple(["sx", "sy", "sz"]).or_else(|| triple(["source_x", "source_y", "source_z"]));
@@ -50,8 +53,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<MarkList>, Problem> {
     let empty = MarkList { space: columns.space, ..MarkList::default() };
     let mut lists = vec![empty; columns.sides.len()];
     for (number, line) in lines {
-        let fields = fields(line, columns.separator);
-        let text = |column: usize| fields.get(column).map(String::as_str);
+        let fields: Vec<Cow<'_, str>> = fields(line, columns.separator).collect();
+        let text = |column: usize| fields.get(column).map(Cow::as_ref);
         let label = columns.label.and_then(text).unwrap_or_default();
         for (list, side) in lists.iter_mut().zip(&columns.sides) {
             let spot = position(side.map(text), number)?.map(Spot::InSpace);

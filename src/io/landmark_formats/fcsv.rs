@@ -2,8 +2,10 @@
 //! point.
 
 use super::content::{Mark, MarkList, Space, Spot, SurfaceMarks};
-use super::text::{check_count, coordinates, field, fields, lines, position};
+use super::text::{check_count, coordinates, lines, position};
 use crate::io::problem::{Place, Problem};
+use crate::io::separated::{field, fields};
+use std::borrow::Cow;
 
 /// The columns of a file without a comment that names them.
 const COLUMNS: &str = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
@@ -18,7 +20,8 @@ struct Columns {
 impl Columns {
     /// The columns of a list of names apart by commas; `None` where the coordinates are not among them.
     fn named(list: &str) -> Option<Self> {
-        let names = fields(&list.to_ascii_lowercase(), ',');
+        let list = list.to_ascii_lowercase();
+        let names: Vec<Cow<'_, str>> = fields(&list, ',').collect();
         let column = |name: &str| names.iter().position(|n| n == name);
         Some(Self {
             coordinates: [column("x")?, column("y")?, column("z")?],
@@ -42,8 +45,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<MarkList>, Problem> {
                 _ => {}
             }
         } else if !line.trim().is_empty() {
-            let fields = fields(line, ',');
-            let text = |column: usize| fields.get(column).map(String::as_str);
+            let fields: Vec<Cow<'_, str>> = fields(line, ',').collect();
+            let text = |column: usize| fields.get(column).map(Cow::as_ref);
             let spot = position(columns.coordinates.map(text), number)?.map(Spot::InSpace);
             let label = columns.label.and_then(text).unwrap_or_default().to_owned();
             list.marks.push(Mark { label, spot });

@@ -1,9 +1,10 @@
 //! MeshLab's picked points (`.pp`): XML with one element `point` each. Points that are not active were not placed.
 
 use super::content::{Mark, MarkList, Spot, SurfaceMarks};
-use super::text::{check_count, one_line, position};
+use super::text::{check_count, position};
 use crate::io::problem::{Place, Problem};
 use crate::io::reading;
+use crate::io::separated::one_line;
 use quick_xml::Reader;
 use quick_xml::escape::escape;
 use quick_xml::events::{BytesStart, Event};

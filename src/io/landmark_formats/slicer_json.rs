@@ -2,9 +2,10 @@
 //! and are passed over.
 
 use super::content::{Mark, MarkList, Space, Spot, SurfaceMarks};
-use super::text::{check_count, json_problem, one_line, usable};
+use super::text::{check_count, json_problem, usable};
 use crate::io::problem::{Place, Problem};
 use crate::io::reading;
+use crate::io::separated::one_line;
 use glam::DVec3;
 use serde::Deserialize;
 use serde_json::{Value, json};

@@ -3,7 +3,7 @@
 use super::limits::MAX_POINTS;
 use crate::io::problem::{Place, Problem};
 use crate::io::reading;
-pub use crate::io::separated::{field, fields, one_line};
+use crate::io::separated::one_line;
 use glam::DVec3;
 
 /// The length of the longest line in bytes.

@@ -3,8 +3,9 @@
 //! outlines are no landmarks and are passed over.
 
 use super::content::{Mark, MarkList, Spot, SurfaceMarks};
-use super::text::{check_count, coordinate, coordinates, lines, one_line, point_count, position, usable};
+use super::text::{check_count, coordinate, coordinates, lines, point_count, position, usable};
 use crate::io::problem::{Place, Problem};
+use crate::io::separated::one_line;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<MarkList>, Problem> {
     let mut lists: Vec<MarkList> = Vec::new();

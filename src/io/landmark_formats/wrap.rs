@@ -6,10 +6,11 @@
 
 use super::content::{Mark, MarkList, Spot, SurfaceMark, SurfaceMarks};
 use super::limits::MAX_POINTS;
-use super::text::{json_problem, one_line, usable};
+use super::text::{json_problem, usable};
 use crate::io::landmark_file::LandmarkPoint;
 use crate::io::problem::{Place, Problem};
 use crate::io::reading;
+use crate::io::separated::one_line;
 use glam::DVec3;
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};

@@ -7,7 +7,7 @@ use super::content::{AnnouncedColumn, Column, Heading, Rows, VertexTable};
 use super::number_type::NumberType;
 use crate::io::problem::{Place, Problem};
 use crate::io::reading::{content_lines, number, text};
-use crate::io::separated;
+use crate::io::separated::fields;
 use std::borrow::Cow;
 
 /// The length of the longest line in bytes.
@@ -55,7 +55,7 @@ struct Header {
 
 impl Header {
     fn of(number: usize, line: &str) -> Result<Self, Problem> {
-        let mut names: Vec<String> = fields(line).into_iter().map(Cow::into_owned).collect();
+        let mut names: Vec<String> = fields(line, ',').map(Cow::into_owned).collect();
         let is_named = names.iter().any(|name| name.parse::<f64>().is_err() && !name.is_empty());
         if !is_named {
             let names = (1..=names.len()).map(|k| k.to_string()).collect();
@@ -74,14 +74,6 @@ impl Header {
         };
         Ok(Self { names, rows, counts })
     }
-}
-
-/// The fields of a line, without the spaces around them.
-fn fields(line: &str) -> Vec<Cow<'_, str>> {
-    if line.contains('"') {
-        return separated::fields(line, ',').into_iter().map(Cow::Owned).collect();
-    }
-    line.split(',').map(|field| Cow::Borrowed(field.trim())).collect()
 }
 
 /// The columns of values that the first line of a table announces, and whether the line is one of a table at all: it has commas, or
@@ -154,14 +146,13 @@ impl Filling {
     }
 
     fn line(&mut self, line: usize, row: usize, content: &str, rows: &Rows) -> Result<(), Problem> {
-        let fields = fields(content);
-        let mut fields = fields.iter().map(Cow::as_ref);
+        let mut fields = fields(content, ',');
         if let Some(first) = self.first_count {
-            self.check_count(first, line, row, fields.next().unwrap_or_default())?;
+            self.check_count(first, line, row, &fields.next().unwrap_or_default())?;
         }
         let vertex = match rows {
             Rows::InOrder { .. } => row,
-            Rows::Numbered(_) => number(fields.next(), line, "a vertex number")?,
+            Rows::Numbered(_) => number(fields.next().as_deref(), line, "a vertex number")?,
         };
         let Some(earlier) = self.line_of.get_mut(vertex) else {
             let vertices = self.line_of.len();
@@ -176,9 +167,9 @@ impl Filling {
         for column in &mut self.columns {
             let what = || format!("a number of \"{}\"", column.name);
             let field = fields.next();
-            let value = match field {
+            let value = match field.as_deref() {
                 Some("") => None,
-                _ => Some(number::<f64>(field, line, &what())?),
+                field => Some(number::<f64>(field, line, &what())?),
             };
             if let Some(value) = value.filter(|value| !value.is_finite()) {
                 return Err((
