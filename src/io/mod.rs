@@ -25,6 +25,7 @@ mod off_colours;
 mod other_file;
 pub mod picture;
 mod ply;
+pub mod point_table;
 mod problem;
 mod reading;
 pub(crate) mod separated;

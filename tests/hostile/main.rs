@@ -162,6 +162,7 @@ fn beside_meshes() -> Vec<(String, Vec<u8>)> {
         ("curves.obj", &format!("{vertices}g belt\nl 1 2/2 3 \\\n1 # 5\ng\nl -1 -2\n")),
         ("curves.csv", "curve,vertex\nbelt,0\nbelt,1\nbelt,2\nbelt,0 # again\n2,5\n2,3,0.5,0.5,0,1,2\n"),
         ("curves.json", curves),
+        ("points.csv", "\"\",\"face\",\"b0\",\"b1\",\"b2\"\n\"1\",0,0.5,0.5,0 # middle\n\"2\",\"5\"\n"),
     ];
     let texts = texts.into_iter().map(|(name, text)| (name.to_owned(), text.as_bytes().to_vec()));
     let others = [

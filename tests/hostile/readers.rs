@@ -2,7 +2,9 @@
 
 use conemap::io::landmark_formats::{self, LandmarkFormat};
 use conemap::io::moved::{self, MoveError, Normals};
-use conemap::io::{Format, curve_file, detect, gltf_parts, read_mesh, texture_coordinates, vertex_table};
+use conemap::io::{
+    Format, curve_file, detect, gltf_parts, point_table, read_mesh, texture_coordinates, vertex_table,
+};
 use conemap::map_file::{self, FileMesh};
 use conemap::mesh::check::closed_genus_zero;
 use conemap::transfer::given_file;
@@ -19,6 +21,8 @@ pub enum Reader {
     VertexTable,
     /// Curves on a mesh.
     Curves,
+    /// Points of a mesh.
+    Points,
     /// Texture coordinates of a mesh file.
     TextureCoordinates,
     /// A mesh file whose vertices are moved.
@@ -39,7 +43,8 @@ impl Reader {
     /// All readers.
     pub fn all() -> Vec<Self> {
         let meshes = Format::ALL.into_iter().map(Self::Mesh);
-        let others = [Self::VertexTable, Self::Curves, Self::TextureCoordinates, Self::Moved, Self::Map];
+        let others =
+            [Self::VertexTable, Self::Curves, Self::Points, Self::TextureCoordinates, Self::Moved, Self::Map];
         meshes.chain(LandmarkFormat::ALL.into_iter().map(Self::Landmarks)).chain(others).collect()
     }
 
@@ -51,6 +56,7 @@ impl Reader {
             landmarks,
             Self::VertexTable,
             Self::Curves,
+            Self::Points,
             Self::TextureCoordinates,
             Self::Moved,
             Self::Map,
@@ -64,6 +70,7 @@ impl Reader {
             Self::Landmarks(format) => format!("landmarks {}", format.id()),
             Self::VertexTable => "vertex table".to_owned(),
             Self::Curves => "curves".to_owned(),
+            Self::Points => "points".to_owned(),
             Self::TextureCoordinates => "texture coordinates".to_owned(),
             Self::Moved => "moved".to_owned(),
             Self::Map => "map file".to_owned(),
@@ -77,6 +84,7 @@ impl Reader {
             Self::Landmarks(format) => landmark_formats::detect(name, bytes) == Some(format),
             Self::VertexTable => name.starts_with("table"),
             Self::Curves => name.starts_with("curves"),
+            Self::Points => name.starts_with("points"),
             Self::TextureCoordinates => name.starts_with("texture"),
             Self::Moved => matches!(detect(bytes), Some(Format::Obj | Format::Off)),
             Self::Map => bytes.starts_with(b"CONEMAP\0"),
@@ -103,6 +111,10 @@ impl Reader {
             },
             Self::Curves => match curve_file::read(bytes, MESH.file_vertices()) {
                 Ok(curves) => format!("{} curves", curves.len()),
+                Err(error) => error.to_string(),
+            },
+            Self::Points => match point_table::read(bytes) {
+                Ok(points) => format!("{} points", points.len()),
                 Err(error) => error.to_string(),
             },
             Self::TextureCoordinates => match texture_coordinates::read(bytes) {

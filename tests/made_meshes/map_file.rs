@@ -423,6 +423,10 @@ fn the_command_line_saves_asks_measures_and_exports() {
     assert!(there.distance(glam::DVec3::new(rows[0][5], rows[0][6], rows[0][7])) < 1e-9);
     for (content, sentence) in [
         ("0,0.2,0.3\n", "line 1: expected `face,b0,b1,b2` or `vertex`"),
+        (
+            "f0,0.2,0.3,0.5\n5\n",
+            "points.csv, line 1: expected `face,b0,b1,b2` or `vertex`, found \"f0,0.2,0.3,0.5\"",
+        ),
         ("5\n999999,1,0,0\n", "line 2: there is no face 999999"),
         ("0,1,1,1\n", "negative or do not sum to 1"),
         ("99999999\n", "there is no vertex 99999999"),
