@@ -817,6 +817,10 @@ fn a_map_file_is_proved_or_refused() {
     let proved = json(&report);
     assert_eq!((&proved["verdict"], &proved["doubtful"]["triangles"]), (&"proved".into(), &0.into()));
     assert_eq!((&proved["faces"]["source"], &proved["landmarks"]["pairs"]), (&320.into(), &7.into()));
+    let words = [OsStr::new("verify"), map.as_os_str(), bean.as_os_str(), ball.as_os_str()];
+    let printed = conemap(words.into_iter().chain(["--report", "-"].map(OsStr::new)));
+    let printed: Value = serde_json::from_slice(&printed.stdout).unwrap();
+    assert_eq!(printed["landmarks"], proved["landmarks"]);
     let output = asked(&map, &ball, &bean);
     assert_eq!(output.status.code(), Some(1));
     let sentence = errors(&output);

@@ -291,7 +291,7 @@ pub struct VerifyArguments {
     /// The map.
     #[command(flatten)]
     pub saved: SavedMapArguments,
-    /// File for the report (JSON), written for a refused map as well.
+    /// File for the report (JSON), written for a refused map as well; - for standard output, in place of the sentences.
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
 }

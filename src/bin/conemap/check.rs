@@ -8,15 +8,12 @@ use conemap::mesh::check::{CheckedMesh, MeshFault, closed_genus_zero};
 use conemap::mesh::repair::{ChangeReport, RepairOptions, RepairRefusal, RepairedMesh, repaired};
 use conemap::monitor::Silent;
 use serde::Serialize;
-use std::path::{Path, PathBuf};
 
 /// Tells whether a mesh can be mapped, as it is or repaired; an error where it cannot.
 pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     // What cannot be written is found before the work is done.
     let out = arguments.out.as_deref().map(|out| Ok::<_, Failure>((out, input::format(out)?))).transpose()?;
-    let is_file = |path: &&PathBuf| *path != Path::new("-");
-    let files = arguments.out.iter().chain(arguments.report.iter().filter(is_file)).cloned();
-    outputs::check([&arguments.mesh], files)?;
+    outputs::check([&arguments.mesh], arguments.out.iter().chain(&arguments.report).cloned())?;
     let soup = input::soup(&arguments.mesh)?;
     let fault = closed_genus_zero(&soup).err();
     let outcome = repaired(&soup, &RepairOptions::from(arguments.repairs), &mut Silent);
@@ -26,13 +23,12 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         _ => Ok(()),
     };
     let report = CheckReport::new(arguments.repair, fault.as_ref(), &outcome);
-    match arguments.report.as_deref() {
-        Some(path) if path == Path::new("-") => print(serde_json::to_string_pretty(&report)?)?,
-        Some(path) => {
-            outputs::write(path, &serde_json::to_vec_pretty(&report)?)?;
-            print(sentences(&report))?;
-        }
-        None => print(sentences(&report))?,
+    if let Some(path) = &arguments.report {
+        outputs::write(path, &serde_json::to_vec_pretty(&report)?)?;
+    }
+    // On standard output the report stands in place of the sentences.
+    if !arguments.report.as_deref().is_some_and(outputs::is_standard) {
+        print(sentences(&report))?;
     }
     written?;
     let path = arguments.mesh.display();

@@ -1,7 +1,8 @@
-//! The files that a command writes. They are looked at before the work begins, so that a name that cannot be written costs
+//! The files that a command writes; `-` is standard output. They are looked at before the work begins, so that a name that cannot be written costs
 //! nothing, and each is written beside its place and then moved there, so that none is left half written.
 
 use crate::input::{self, Failure};
+use crate::told;
 use conemap::job::OutputKind;
 use std::fs::{self, File, OpenOptions};
 use std::io::Write;
@@ -19,17 +20,24 @@ pub fn check<'a>(
         if is_special(&path) {
             continue;
         }
-        let place = place(&path);
-        let told = |problem: &str| Err(format!("{}: {problem}", path.display()).into());
-        if read.iter().any(|input| is_same(input, &path)) {
-            return told("this file is read; choose another name for what is to be written");
+        let place = if is_standard(&path) { path.clone() } else { place(&path) };
+        let refused = |problem: &str| Err(format!("{}: {problem}", path.display()).into());
+        if !is_standard(&path) && read.iter().any(|input| is_same(input, &path)) {
+            return refused("this file is read; choose another name for what is to be written");
         }
         if places.iter().any(|(other, _)| *other == place) {
-            return told("two results would be written to this file; give each its own name");
+            return refused("two results would be written to this file; give each its own name");
+        }
+        if is_standard(&path) {
+            places.push((place, path));
+            continue;
         }
         let holds = |a: &Path, b: &Path| a.starts_with(b) || b.starts_with(a);
         if let Some((_, other)) = places.iter().find(|(other, _)| holds(other, &place)) {
-            return told(&format!("{} is in the way: one would be the folder of the other", other.display()));
+            return refused(&format!(
+                "{} is in the way: one would be the folder of the other",
+                other.display()
+            ));
         }
         try_out(&path).map_err(|e| format!("{}: it cannot be written: {e}", path.display()))?;
         places.push((place, path));
@@ -55,8 +63,19 @@ pub fn write_all<'a>(
     first
 }
 
-/// Writes a file, with the folder above it.
+/// Whether a name stands for standard output.
+pub fn is_standard(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Writes a file, with the folder above it; or to standard output, where that is meant.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    if is_standard(path) {
+        return match std::str::from_utf8(bytes) {
+            Ok(text) => told::print(text.trim_end()),
+            Err(_) => std::io::stdout().write_all(bytes).map_err(|e| format!("standard output: {e}").into()),
+        };
+    }
     written(path, bytes).map_err(|e| format!("{}: it cannot be written: {e}", path.display()).into())
 }
 

@@ -3,7 +3,6 @@
 use crate::arguments::{ExportArguments, ReportArguments, SavedMapArguments};
 use crate::input::{self, Failure, MeshSets};
 use crate::outputs;
-use crate::told::print;
 use conemap::job::{MapFiles, MapLook, OpenMap};
 use conemap::landmarks::MeshSide;
 use serde_json::json;
@@ -81,8 +80,5 @@ pub fn export(arguments: &ExportArguments) -> Result<(), Failure> {
 
 /// To a file, or to standard output where there is none.
 pub fn write_or_print(file: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
-    match file {
-        Some(path) => outputs::write(path, bytes),
-        None => print(String::from_utf8_lossy(bytes).trim_end()),
-    }
+    outputs::write(file.unwrap_or(Path::new("-")), bytes)
 }

@@ -20,9 +20,13 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
         let report = TimedProof { proof: ProofReport::of(&outcome), seconds: begun.elapsed().as_secs_f64() };
         outputs::write(path, &serde_json::to_vec_pretty(&report)?)?;
     }
+    // On standard output the report stands in place of the sentences.
+    let is_told = !arguments.report.as_deref().is_some_and(outputs::is_standard);
     match outcome {
         Ok(proof) => {
-            tell(&proof)?;
+            if is_told {
+                tell(&proof)?;
+            }
             if proof.is_exact() { Ok(()) } else { Err(files.told(None, &"the map is not proved")) }
         }
         Err(error) => Err(files.told(error.side(), &error)),
