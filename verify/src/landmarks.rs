@@ -18,7 +18,7 @@ const MOST_PAIRS: usize = 10_000;
 pub struct Landmarks {
     /// The number of pairs.
     pub pairs: usize,
-    /// The number of pairs of vertices of both meshes that meet exactly.
+    /// The number of pairs of vertices of both meshes that meet exactly; a point of a face on one of its corners is a vertex.
     pub exact: usize,
     /// The largest distance of the others: from the nearest overlay vertex to the landmark on the source, or from that vertex's
     /// place to the partner on the target; in units of the root of the mesh's area. In f64.
@@ -74,19 +74,26 @@ pub fn check(
     Ok(found)
 }
 
-/// A landmark as a place; `None` where its mesh has no such point.
+/// A landmark as a place; a point of a face that lies on a corner is that vertex. `None` where its mesh has no such point.
 fn place(map: &Map<'_>, side: usize, point: LandmarkPoint) -> Option<Place> {
     let mesh = map.meshes[side];
     match point {
         LandmarkPoint::Vertex(v) => mesh.vertex(v).map(Place::Vertex),
         LandmarkPoint::OnFace { face, barycentric } => {
-            mesh.corners(face)?;
+            let corners = mesh.corners(face)?;
             // Landmark files may have few digits.
             let weights = barycentric.map(|w| w.max(0.0));
             let sum: f64 = weights.iter().sum();
             let is_sound =
                 (sum - 1.0).abs() < 1e-3 && weights.iter().zip(barycentric).all(|(w, b)| w - b <= 1e-6);
-            is_sound.then(|| Place::Face(face, weights.map(|w| w / sum)))
+            if !is_sound {
+                return None;
+            }
+            let others = |k: usize| weights[(k + 1) % 3] + weights[(k + 2) % 3];
+            match (0..3).find(|&k| others(k) == 0.0) {
+                Some(k) => mesh.vertex(corners[k]).map(Place::Vertex),
+                None => Some(Place::Face(face, weights.map(|w| w / sum))),
+            }
         }
     }
 }

@@ -361,6 +361,22 @@ fn moved_landmarks_are_refused() {
     }
 }
 
+#[test]
+fn points_of_faces_at_their_corners_are_vertices() {
+    let mut e = example();
+    let usual = e.judged().expect("a map");
+    let meshes = support::meshes();
+    for pair in 0..6 {
+        for (side, mesh) in meshes.iter().enumerate() {
+            let vertex = e.header["landmarks"]["pairs"][pair][side].as_u64().expect("a vertex") as u32;
+            let face = mesh.triangles.iter().position(|t| t.contains(&vertex)).expect("a face");
+            let weights = mesh.triangles[face].map(|v| if v == vertex { 1.0 } else { 0.0 });
+            e.header["landmarks"]["pairs"][pair][side] = json!({ "face": face, "barycentric": weights });
+        }
+    }
+    assert_eq!(e.judged(), Ok(usual));
+}
+
 /// Where an edge of each mesh coincide, a piece has two corners: it is left out where it lies along a side, and only there.
 #[test]
 fn pieces_without_inside_are_left_out() {

@@ -42,7 +42,7 @@ fn tell(proof: &Proof) -> Result<(), Failure> {
     let others = match landmarks.pairs - landmarks.exact {
         0 => String::new(),
         others => format!(
-            ", {others} inside faces within {:.1e} of the root of the mesh's area",
+            ", {others} on edges or inside faces within {:.1e} of the root of the mesh's area",
             landmarks.largest_distance
         ),
     };
