@@ -17,4 +17,4 @@ pub use growth::{FlatSurface, PlaneLayout};
 pub use metric::ConeMetric;
 pub use record::{FlowMoment, FlowRecord};
 pub use scheme::Scheme;
-pub use target::{TargetError, base_domain_curvature, listed_curvature, uniform_curvature};
+pub use target::{TargetError, base_domain_curvature, check_defect, listed_curvature, uniform_curvature};

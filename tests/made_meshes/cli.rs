@@ -787,7 +787,9 @@ fn bad_cones_are_refused_by_line() {
     let folder = folder("bad_cones_are_refused_by_line");
     let [mesh, _, _] = write_bodies(&folder);
     let list = folder.join("cones.txt");
-    let cases: [(&str, &[&str]); 4] = [
+    let cases: [(&str, &[&str]); 6] = [
+        ("0 NaN\n3 2.0\n", &["cones.txt, line 1", "vertex 0 has an angle defect that is not a number"]),
+        ("0 1.0\n3 7\n", &["cones.txt, line 2", "vertex 3 has the angle defect 7: it must be below 2 pi"]),
         ("0 1.0\nthree 2.0\n", &["cones.txt", "line 2"]),
         ("0 1.0\n999999 2.0\n", &["cones.txt", "line 2", "999999"]),
         ("0 1.0\n3 2.0\n0 2.0\n", &["cones.txt, line 3", "vertex 0 has an angle defect on line 1"]),

@@ -4,7 +4,7 @@ use crate::arguments::FlowArguments;
 use crate::clock::Clock;
 use crate::input::{self, Failure};
 use crate::outputs;
-use conemap::cone_metric::{FlowError, FlowOptions, flow, listed_curvature};
+use conemap::cone_metric::{FlowError, FlowOptions, check_defect, flow, listed_curvature};
 use conemap::mesh::check::CheckedMesh;
 use conemap::monitor::{Monitor, Stage};
 use conemap::pipeline::ConeMetricReport;
@@ -69,6 +69,7 @@ fn cones(arguments: &FlowArguments, checked: &CheckedMesh) -> Result<Vec<(usize,
             format!("{path}, line {line}: expected `vertex angle_defect`, found \"{content}\"")
         })?;
         let v = checked.numbered_vertex(vertex).map_err(|e| format!("{path}, line {line}: {e}"))?;
+        check_defect(vertex, defect).map_err(|e| format!("{path}, line {line}: {e}"))?;
         if let Some(first) = lines.insert(v, line) {
             return Err(
                 format!("{path}, line {line}: vertex {vertex} has an angle defect on line {first}").into()
