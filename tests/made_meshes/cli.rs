@@ -703,6 +703,39 @@ fn every_command_repairs_its_meshes_and_says_so() {
 }
 
 #[test]
+fn small_gaps_are_told_with_the_distance_that_closes_them() {
+    let folder = folder("small_gaps_are_told_with_the_distance_that_closes_them");
+    let ball = icosphere(2);
+    // The triangles are apart from each other, each a little smaller than its place.
+    let shrunk = |f: FaceId| {
+        let corners = ball.corners(f);
+        let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+        corners.map(|p| p + 1e-3 * (middle - p))
+    };
+    let vertices: String =
+        ball.faces().flat_map(shrunk).map(|p| format!("v {} {} {}\n", p.x, p.y, p.z)).collect();
+    let faces: String =
+        (0..ball.face_count()).map(|f| format!("f {} {} {}\n", 3 * f + 1, 3 * f + 2, 3 * f + 3)).collect();
+    let loose = folder.join("loose.obj");
+    std::fs::write(&loose, vertices + &faces).unwrap();
+    let check = |flags: &[&str]| {
+        let words = [OsStr::new("check"), loose.as_os_str(), OsStr::new("--repair")];
+        conemap(words.into_iter().chain(flags.iter().map(OsStr::new)))
+    };
+    let output = check(&[]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let (_, rest) =
+        said.split_once("960 vertices on open edges lie near others at gaps: --join-within ").unwrap();
+    let distance = rest.split_whitespace().next().unwrap();
+    let closed = check(&["--join-within", distance]);
+    assert!(closed.status.success(), "{}", errors(&closed));
+    // A distance in another unit joins all of them, and takes no time.
+    let gone = check(&["--join-within", "1000"]);
+    assert!(errors(&gone).contains("of every face are within 1000 of each other"), "{}", errors(&gone));
+}
+
+#[test]
 fn handles_are_told_and_cut_when_that_is_asked_for() {
     let folder = folder("handles_are_told_and_cut_when_that_is_asked_for");
     let [ring, fixed] = ["ring.obj", "fixed.obj"].map(|name| folder.join(name));

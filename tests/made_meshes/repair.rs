@@ -7,7 +7,9 @@ use conemap::math::random::SplitMix;
 use conemap::math::scalar::{cos, sin};
 use conemap::mesh::check::{CheckedMesh, MeshFault, closed_genus_zero};
 use conemap::mesh::generators::{icosphere, octahedron, torus};
-use conemap::mesh::repair::{Change, Handles, Parts, RepairOptions, RepairRefusal, RepairedMesh, repaired};
+use conemap::mesh::repair::{
+    Change, Handles, Parts, RepairOptions, RepairRefusal, RepairedMesh, gaps, repaired,
+};
 use conemap::mesh::soup::PolygonSoup;
 use conemap::mesh::{FaceId, SurfaceMesh, SurfacePoint};
 use conemap::monitor::Silent;
@@ -202,7 +204,10 @@ fn loose_triangles_with_equal_corners_are_one_surface() {
     let shaken = |p: &DVec3| *p + 1e-6 * DVec3::from_array([0; 3].map(|_| random.unit()));
     loose.positions = loose.positions.iter().map(shaken).collect();
     assert!(matches!(repair(&loose), Err(RepairRefusal::Parts { count: 320, .. })));
-    let options = RepairOptions { join_within: 1e-5, ..RepairOptions::default() };
+    let found = gaps(&loose, &RepairOptions::default()).unwrap().unwrap();
+    assert_eq!(found.vertices, 3 * 320);
+    let options = RepairOptions { join_within: found.distance, ..RepairOptions::default() };
+    assert_eq!(gaps(&loose, &options), Ok(None));
     let near = repaired(&loose, &options, &mut Silent).unwrap();
     is_sound(&near);
     assert_eq!(near.checked.mesh.vertex_count(), ball.vertex_count());

@@ -5,7 +5,7 @@ use crate::input::{self, Failure};
 use crate::outputs;
 use crate::told::print;
 use conemap::mesh::check::{CheckedMesh, MeshFault, closed_genus_zero};
-use conemap::mesh::repair::{ChangeReport, RepairOptions, RepairRefusal, RepairedMesh, repaired};
+use conemap::mesh::repair::{ChangeReport, Gaps, RepairOptions, RepairRefusal, RepairedMesh, gaps, repaired};
 use conemap::monitor::Silent;
 use serde::Serialize;
 
@@ -16,13 +16,18 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     outputs::check([&arguments.mesh], arguments.out.iter().chain(&arguments.report).cloned())?;
     let soup = input::soup(&arguments.mesh)?;
     let fault = closed_genus_zero(&soup).err();
-    let outcome = repaired(&soup, &RepairOptions::from(arguments.repairs), &mut Silent);
+    let options = RepairOptions::from(arguments.repairs);
+    let outcome = repaired(&soup, &options, &mut Silent);
+    let gaps = if fault.is_some() { gaps(&soup, &options).ok().flatten() } else { None };
     // Both are tried, so that one that fails costs only itself.
     let written = match (out, &outcome) {
         (Some((out, format)), Ok(mesh)) => outputs::write(out, &format.write(&mesh.checked.mesh_in_file())),
         _ => Ok(()),
     };
-    let report = CheckReport::new(arguments.repair, fault.as_ref(), &outcome);
+    let report = CheckReport {
+        gaps: gaps.map(Into::into),
+        ..CheckReport::new(arguments.repair, fault.as_ref(), &outcome)
+    };
     if let Some(path) = &arguments.report {
         outputs::write(path, &serde_json::to_vec_pretty(&report)?)?;
     }
@@ -53,6 +58,8 @@ struct CheckReport {
     refusal: Option<Fault>,
     /// The changes of the repair; empty where there is none.
     changes: Vec<ChangeReport>,
+    /// The gaps that `--join-within` may close; `null` where there are none.
+    gaps: Option<GapReport>,
     /// Share of the repaired surface's area that is caps; `null` where the mesh cannot be repaired.
     cap_share: Option<f64>,
     /// Number of vertices of the repaired mesh.
@@ -61,6 +68,21 @@ struct CheckReport {
     faces: Option<usize>,
     /// The numbers in the file of its elements; `null` where they stay those of the file.
     numbers: Option<Numbers>,
+}
+
+/// Vertices on open edges beside each other.
+#[derive(Serialize)]
+struct GapReport {
+    /// Number of vertices that the distance joins with others.
+    vertices: usize,
+    /// The distance, in the file's units.
+    distance: f64,
+}
+
+impl From<Gaps> for GapReport {
+    fn from(Gaps { vertices, distance }: Gaps) -> Self {
+        Self { vertices, distance }
+    }
 }
 
 /// A fault or a refusal.
@@ -107,6 +129,7 @@ impl CheckReport {
             fault: fault.map(|fault| Fault { kind: fault.kind(), sentence: fault.to_string() }),
             refusal: refusal.map(|refusal| Fault { kind: refusal.kind(), sentence: refusal.to_string() }),
             changes: changes.unwrap_or_default(),
+            gaps: None,
             cap_share: mesh.map(|mesh| mesh.report.cap_share),
             vertices: mesh.map(|mesh| mesh.checked.mesh.vertex_count()),
             faces: mesh.map(|mesh| mesh.checked.mesh.face_count()),
@@ -126,7 +149,13 @@ fn sentences(report: &CheckReport) -> String {
         (Some(_), Some(refusal)) => format!("cannot be mapped, nor repaired: {}", refusal.sentence),
     };
     let changes = report.changes.iter().map(|change| format!("\n  {}{}", change.sentence, places(change)));
-    std::iter::once(first).chain(changes).collect()
+    let gaps = report.gaps.as_ref().map(|GapReport { vertices, distance }| {
+        format!(
+            "\n  {vertices} vertices on open edges lie near others at gaps: --join-within {distance:.1e} may close \
+             these (in the file's units)"
+        )
+    });
+    std::iter::once(first).chain(changes).chain(gaps).collect()
 }
 
 /// The first elements of a change.

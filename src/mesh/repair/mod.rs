@@ -13,6 +13,7 @@ mod defects;
 mod degenerate;
 mod draft;
 mod duplicates;
+mod gaps;
 mod handles;
 mod joining;
 mod options;
@@ -24,6 +25,7 @@ mod report;
 mod sheets;
 
 pub use defects::{Defect, DefectGroup, DefectKind, Defects, MOST_DEFECTS, MOST_POINTS, Outlook, defects};
+pub use gaps::{Gaps, gaps};
 pub use options::{Handles, Parts, RepairOptions};
 pub use order::{RepairedMesh, repaired};
 pub use refusal::RepairRefusal;

@@ -112,7 +112,12 @@ fn steps(
     monitor.step(Step::default())?;
     let (draft, doubled) = without_duplicates(draft);
     if draft.faces.is_empty() {
-        return Err(RepairRefusal::NothingLeft);
+        let within = options.join_within;
+        return Err(if within > 0.0 {
+            RepairRefusal::JoinedAway { within }
+        } else {
+            RepairRefusal::NothingLeft
+        });
     }
     let Closed { draft, sheets, dropped, caps, degenerate: closed, mut cap_share } =
         closed(draft, options.parts, monitor)?;

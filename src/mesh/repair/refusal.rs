@@ -60,6 +60,15 @@ pub enum RepairRefusal {
     /// Nothing is left.
     #[error("no face of the mesh has an area")]
     NothingLeft,
+    /// Nothing is left since the vertices of every face were joined.
+    #[error(
+        "the vertices of every face are within {within} of each other and were joined: give a smaller distance (--join-within, in the \
+         file's units)"
+    )]
+    JoinedAway {
+        /// The distance within which vertices were joined, in the file's units.
+        within: f64,
+    },
     /// The user asked to stop.
     #[error(transparent)]
     Stopped(#[from] Cancelled),
@@ -106,6 +115,7 @@ impl RepairRefusal {
             Self::TooManyHandles { .. } => "too_many_handles",
             Self::OpenSheet { .. } => "open_sheet",
             Self::NothingLeft => "nothing_left",
+            Self::JoinedAway { .. } => "joined_away",
             Self::Stopped(_) => "stopped",
         }
     }
