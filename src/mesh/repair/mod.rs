@@ -8,6 +8,7 @@
 //!
 //! Limits: intersections of the surface with itself, there before or made by a cap, are not looked for.
 
+mod blades;
 mod caps;
 mod defects;
 mod degenerate;

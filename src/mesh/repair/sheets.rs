@@ -3,12 +3,12 @@
 //!
 //! Faces are paired at every edge. The corners that hang together across paired halfedges are one vertex, the others copies of it.
 
+use super::blades::{Blade, flattest, wedges};
 use super::draft::{Draft, DraftFace, Edge, FaceOrigin, NONE, across, edges};
 use crate::math::disjoint_sets::DisjointSets;
 use crate::math::scalar::atan2;
 use crate::mesh::check::Elements;
 use rustc_hash::FxHashMap;
-use std::f64::consts::PI;
 
 /// The edges and vertices that came apart, and those that stayed one, in the numbers of the file.
 pub(super) struct Sheets {
@@ -94,15 +94,6 @@ fn cut_at(face: DraftFace, middles: [Option<u32>; 3], pieces: &mut Vec<DraftFace
     cut_at(half(k), on(after), pieces);
 }
 
-/// A halfedge at an edge, seen along the edge.
-struct Blade {
-    halfedge: u32,
-    /// Direction in which its face leaves the edge, in radians around it.
-    angle: f64,
-    /// Whether it runs from the edge's first end to the second: its inner side is towards lesser angles then.
-    is_forward: bool,
-}
-
 /// The pairs of halfedges of one crowded edge that are stitched: those with the body's inside between them, where as many run one
 /// way as the other; else those that go on flattest.
 fn stitches(draft: &Draft, edge: &Edge) -> Vec<[u32; 2]> {
@@ -131,48 +122,6 @@ fn blades(draft: &Draft, edge: &Edge) -> Vec<Blade> {
     let mut blades: Vec<Blade> = edge.halfedges.iter().map(blade).collect();
     blades.sort_by(|a, b| a.angle.total_cmp(&b.angle).then(a.halfedge.cmp(&b.halfedge)));
     blades
-}
-
-/// Each backward halfedge with the forward halfedge that closes its wedge, like brackets on a circle.
-fn wedges(blades: &[Blade]) -> Vec<[u32; 2]> {
-    let (mut open, mut pairs) = (Vec::new(), Vec::new());
-    let mut closed = vec![false; blades.len()];
-    // The second round closes what the first has left open.
-    for (k, blade) in blades.iter().enumerate().chain(blades.iter().enumerate()) {
-        if closed[k] {
-            continue;
-        }
-        if !blade.is_forward && !open.contains(&k) {
-            open.push(k);
-        } else if blade.is_forward
-            && let Some(partner) = open.pop()
-        {
-            closed[k] = true;
-            closed[partner] = true;
-            pairs.push([blades[partner].halfedge, blade.halfedge]);
-        }
-    }
-    pairs
-}
-
-/// Pairs of halfedges that run in opposite directions, the flattest first.
-fn flattest(blades: &[Blade]) -> Vec<[u32; 2]> {
-    let mut all = Vec::new();
-    for (i, a) in blades.iter().enumerate() {
-        for b in blades[i + 1..].iter().filter(|b| b.is_forward != a.is_forward) {
-            all.push((((b.angle - a.angle) - PI).abs(), [a.halfedge, b.halfedge]));
-        }
-    }
-    all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let mut taken: Vec<u32> = Vec::new();
-    let mut pairs = Vec::new();
-    for (_, pair) in all {
-        if pair.iter().all(|h| !taken.contains(h)) {
-            taken.extend(pair);
-            pairs.push(pair);
-        }
-    }
-    pairs
 }
 
 /// Corners 3 f + k that hang together around their vertices.
