@@ -87,6 +87,12 @@ pub enum MeshFault {
         /// Number of handles.
         genus: usize,
     },
+    /// The surface has fewer faces than any body.
+    #[error("the mesh has {faces} faces; a surface that can be mapped has four at least")]
+    TooFewFaces {
+        /// The number of faces.
+        faces: usize,
+    },
     /// The file says more faces than fit.
     #[error("the mesh has {faces} faces; the limit is {MAX_FACES}")]
     TooManyFaces {
@@ -107,6 +113,7 @@ impl MeshFault {
             Self::PinchedVertices(_) => "pinched_vertices",
             Self::Components { .. } => "components",
             Self::Genus { .. } => "genus",
+            Self::TooFewFaces { .. } => "too_few_faces",
             Self::TooManyFaces { .. } => "too_many_faces",
         }
     }

@@ -10,6 +10,9 @@ use crate::mesh::soup::PolygonSoup;
 use crate::mesh::{FaceId, FileFrame, SurfaceMesh, VertexId};
 use typed_index_collections::TiVec;
 
+/// The tetrahedron has the fewest faces of all closed surfaces without handles that lie in space.
+const LEAST_FACES: usize = 4;
+
 /// Judges a soup: polygons are triangulated, orientations made to agree and to face outwards, unused vertices left out.
 ///
 /// # Errors
@@ -51,6 +54,10 @@ fn judged<E: From<MeshFault>>(
     let euler = positions.len() as i64 - edges.count() as i64 + triangles.len() as i64;
     if euler != 2 {
         return Err(MeshFault::Genus { genus: ((2 - euler) / 2) as usize }.into());
+    }
+    // Two triangles back to back, with all three edges in common.
+    if triangles.len() < LEAST_FACES {
+        return Err(MeshFault::TooFewFaces { faces: triangles.len() }.into());
     }
     if signed_volume(soup, &triangles) < 0.0 {
         triangles.iter_mut().for_each(|t| t.swap(1, 2));
@@ -166,5 +173,11 @@ mod tests {
         two.polygons[80..].iter_mut().flatten().filter(|v| **v == shift).for_each(|v| *v = 0);
         assert!(matches!(closed_genus_zero(&two), Err(MeshFault::PinchedVertices(e)) if e.first == [0]));
         assert_eq!(closed_genus_zero(&PolygonSoup::default()).unwrap_err(), MeshFault::Empty);
+        let pillow = PolygonSoup {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+            polygons: vec![vec![0, 1, 2], vec![0, 2, 1]],
+            ..PolygonSoup::default()
+        };
+        assert_eq!(closed_genus_zero(&pillow).unwrap_err(), MeshFault::TooFewFaces { faces: 2 });
     }
 }

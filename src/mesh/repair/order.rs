@@ -50,9 +50,9 @@ pub fn repaired(
             Ok(RepairedMesh { checked, report })
         }
         Err(NotClosed::Stopped(stop)) => Err(stop.into()),
-        Err(NotClosed::Fault(fault @ (MeshFault::Empty | MeshFault::TooManyFaces { .. }))) => {
-            Err(fault.into())
-        }
+        Err(NotClosed::Fault(
+            fault @ (MeshFault::Empty | MeshFault::TooFewFaces { .. } | MeshFault::TooManyFaces { .. }),
+        )) => Err(fault.into()),
         Err(NotClosed::Fault(fault)) => {
             let frame = FileFrame::of(soup);
             let mut repaired =
