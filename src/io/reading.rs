@@ -78,12 +78,17 @@ pub fn short(word: &str) -> String {
 /// not; `None` for a usable vertex.
 pub fn unusable(p: DVec3) -> Option<String> {
     let [x, y, z] = p.to_array().map(in_few_digits);
-    let is_usable = p.is_finite() && p.abs().max_element() < 1e100;
-    (!is_usable).then(|| format!("the coordinates [{x}, {y}, {z}] are not usable numbers"))
+    let are_usable = p.to_array().into_iter().all(is_usable);
+    (!are_usable).then(|| format!("the coordinates [{x}, {y}, {z}] are not usable numbers"))
+}
+
+/// Whether a number is finite and of sane size: products of three stay finite.
+pub fn is_usable(x: f64) -> bool {
+    x.abs() < 1e100
 }
 
 /// A number without hundreds of digits.
-fn in_few_digits(x: f64) -> String {
+pub fn in_few_digits(x: f64) -> String {
     if x == 0.0 || (1e-6..1e15).contains(&x.abs()) || !x.is_finite() {
         x.to_string()
     } else {

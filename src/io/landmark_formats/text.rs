@@ -29,9 +29,9 @@ pub fn coordinate(token: Option<&str>, line: usize) -> Result<f64, Problem> {
     usable(value).ok_or_else(|| (Place::Line(line), format!("{value} is no usable coordinate")))
 }
 
-/// A coordinate that is finite and of sane size: products of three stay finite.
+/// A coordinate that is finite and of sane size.
 pub fn usable(value: f64) -> Option<f64> {
-    (value.abs() < 1e100).then_some(value)
+    reading::is_usable(value).then_some(value)
 }
 
 /// Three coordinates; `None` where all are left empty or `NA`, which says that the point was not placed.

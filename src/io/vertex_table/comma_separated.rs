@@ -6,7 +6,7 @@
 use super::content::{AnnouncedColumn, Column, Heading, Rows, VertexTable};
 use super::number_type::NumberType;
 use crate::io::problem::{Place, Problem};
-use crate::io::reading::{content_lines, number, text};
+use crate::io::reading::{content_lines, in_few_digits, is_usable, number, text};
 use crate::io::separated::fields;
 use std::borrow::Cow;
 
@@ -171,10 +171,10 @@ impl Filling {
                 Some("") => None,
                 field => Some(number::<f64>(field, line, &what())?),
             };
-            if let Some(value) = value.filter(|value| !value.is_finite()) {
+            if let Some(value) = value.filter(|value| !is_usable(*value)) {
                 return Err((
                     Place::Line(line),
-                    format!("{value} is no usable value of \"{}\"", column.name),
+                    format!("{} is no usable value of \"{}\"", in_few_digits(value), column.name),
                 ));
             }
             if column.values.len() <= vertex {

@@ -4,6 +4,7 @@ use super::content::{AnnouncedColumn, Column, Heading, Rows, VertexTable};
 use super::number_type::NumberType;
 use crate::io::ply::{vertex_element, vertex_rows};
 use crate::io::problem::{Place, Problem};
+use crate::io::reading::is_usable;
 use ply_rs_bw::ply::{PropertyDef, PropertyType, ScalarType};
 
 /// The properties that are places, not values.
@@ -44,7 +45,7 @@ pub(super) fn read(bytes: &[u8], vertices: usize) -> Result<VertexTable, Problem
         }
         let mut values = Vec::with_capacity(vertices);
         for (v, row) in rows.iter().enumerate() {
-            let value = row.get(number - 1).copied().filter(|value| value.is_finite());
+            let value = row.get(number - 1).copied().filter(|value| is_usable(*value));
             if value.is_none() {
                 return Err((Place::Vertex(v), format!("its \"{name}\" is not a usable number")));
             }

@@ -62,6 +62,7 @@ fn faults_are_told_with_their_line() {
         ("vertex,a,b\n0,1\n", "line 2: a number of \"b\" is missing: the file may be cut off"),
         ("vertex,a\n0,1,2\n", "line 2: it has more than 1 values"),
         ("vertex,a\n0,inf\n", "line 2: inf is no usable value of \"a\""),
+        ("vertex,a\n0,-1e308\n", "line 2: -1e308 is no usable value of \"a\""),
         ("vertex,a,a\n0,1,2\n", "line 1: two columns are called \"a\""),
         ("vertex,,a\n0,1,2\n", "line 1: column 2 has no name"),
         (
