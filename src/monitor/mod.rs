@@ -1,5 +1,6 @@
 //! Progress, cancellation and the wish to finish now: the only upward call of the core.
 
+mod beside;
 mod or_stop;
 mod portion;
 mod preview;
@@ -9,6 +10,7 @@ mod receiver;
 mod rising;
 mod stage;
 
+pub use beside::Beside;
 pub use or_stop::{OrStop, unless_stopped};
 pub use portion::Portion;
 pub use preview::MapPreview;

@@ -56,6 +56,10 @@ impl Monitor for Portion<'_> {
         self.monitor.wants_result()
     }
 
+    fn has_time(&self) -> bool {
+        self.monitor.has_time()
+    }
+
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {
         self.done = self.done.max(step.fraction.min(1.0));
         let fraction = self.from + (self.to - self.from) * self.done;

@@ -45,6 +45,11 @@ pub trait Monitor {
     fn wants_result(&self) -> bool {
         false
     }
+    /// Whether there is time for what is made beside a map that is whole already, such as its textures: where there is none, it is left
+    /// out, and the result says so.
+    fn has_time(&self) -> bool {
+        true
+    }
     /// The current stage went on; an error asks it to stop.
     ///
     /// # Errors

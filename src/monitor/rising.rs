@@ -42,6 +42,10 @@ impl Monitor for Rising<'_> {
         self.monitor.wants_result()
     }
 
+    fn has_time(&self) -> bool {
+        self.monitor.has_time()
+    }
+
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {
         self.done = self.done.max(step.fraction);
         self.monitor.step(Step { fraction: self.done, ..step })

@@ -9,7 +9,7 @@ use crate::cone_metric::{
 };
 use crate::landmarks::{Landmarks, MeshSide};
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
-use crate::monitor::{Cancelled, Monitor, Rising, Stage};
+use crate::monitor::{Beside, Cancelled, Monitor, Rising, Stage};
 use glam::DVec2;
 use typed_index_collections::{TiVec, ti_vec};
 
@@ -48,7 +48,8 @@ impl Flows {
         })
     }
 
-    /// Runs both flows after the map is made: a flow that fails becomes a warning, and the target's costs the texture.
+    /// Runs both flows after the map is made: a flow that fails, or for which there is no time, becomes a warning, and the target's costs the
+    /// texture.
     ///
     /// # Errors
     /// Cancellation only.
@@ -60,9 +61,13 @@ impl Flows {
     ) -> Result<(Self, Vec<Warning>), Cancelled> {
         let mut warnings = Vec::new();
         let mut tried = |side, monitor: &mut dyn Monitor| {
-            match metric_of(side, input, base, options, monitor) {
+            let beside = &mut Beside::new(monitor);
+            match metric_of(side, input, base, options, beside) {
                 Ok((metric, report)) => return Ok((Some(metric), Some(report))),
-                Err(FlowError::Cancelled(stop)) => return Err(stop),
+                Err(FlowError::Cancelled(stop)) => {
+                    beside.left_out(stop)?;
+                    warnings.push(Warning::NoTimeForConeMetric { side });
+                }
                 Err(error) => {
                     warnings.push(Warning::NoConeMetric { side, reason: error.to_string() });
                     if let FlowError::NotConverged { report, .. } = error {
@@ -75,7 +80,15 @@ impl Flows {
         let (_, source) = tried(MeshSide::Source, &mut *monitor)?;
         let (metric, target) = tried(MeshSide::Target, &mut *monitor)?;
         let target_atlas = match &metric {
-            Some(metric) => Some(flat_atlas(input.target, metric, &input.landmarks.target.raw, monitor)?),
+            Some(metric) => {
+                let beside = &mut Beside::new(monitor);
+                let atlas = flat_atlas(input.target, metric, &input.landmarks.target.raw, beside);
+                if let Err(stop) = atlas {
+                    beside.left_out(stop)?;
+                    warnings.push(Warning::NoTimeForConeMetric { side: MeshSide::Target });
+                }
+                atlas.ok()
+            }
             None => None,
         };
         let flows = Self {

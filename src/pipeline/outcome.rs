@@ -10,7 +10,7 @@ use crate::base_domain::BaseDomain;
 use crate::landmarks::MeshSide;
 use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceFrame, FaceId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor, Step};
+use crate::monitor::{Beside, Cancelled, Monitor, Step};
 use crate::surface_map::correspondence::Correspondence;
 use crate::surface_map::flat_layout::FlatLayout;
 use crate::surface_map::measures::distortion::{Distortion, image_distortion, skin_distortion};
@@ -30,6 +30,9 @@ pub(super) struct Outcome<'a> {
     pub(super) flows: &'a Flows,
     pub(super) locations: &'a Locations,
 }
+
+/// Why a map has no overlay whose parts were left out.
+const NO_TIME: &str = "there was no time left for it";
 
 /// The map as one triangulation of both surfaces, with its measures.
 struct Shown {
@@ -67,7 +70,15 @@ impl Outcome<'_> {
         let images: TiVec<VertexId, Option<SurfacePoint>> = images.into_iter().map(Some).collect();
         let shown = match overlay {
             Ok(overlay) => {
-                let shown = self.shown_on(&overlay, monitor)?;
+                let beside = &mut Beside::new(monitor);
+                let shown = match self.shown_on(&overlay, beside) {
+                    Ok(shown) => shown,
+                    Err(stop) => {
+                        beside.left_out(stop)?;
+                        missing.push(Warning::NoOverlay { reason: NO_TIME.to_owned() });
+                        self.shown_at_vertices(&images)
+                    }
+                };
                 monitor.step(Step { fraction: 0.95, residual: None })?;
                 shown
             }

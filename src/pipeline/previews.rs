@@ -73,6 +73,10 @@ impl Monitor for InGivenMeshes<'_> {
         self.monitor.wants_result()
     }
 
+    fn has_time(&self) -> bool {
+        self.monitor.has_time()
+    }
+
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {
         self.monitor.step(step)
     }

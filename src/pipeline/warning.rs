@@ -63,6 +63,11 @@ pub enum Warning {
         /// The error of the flow.
         reason: String,
     },
+    /// There was no time for a flow: the cone metric of the mesh, and for the target the texture, is missing.
+    NoTimeForConeMetric {
+        /// The mesh.
+        side: MeshSide,
+    },
     /// The map has no overlay: it is shown and measured at the source's vertices only.
     NoOverlay {
         /// The error of the overlay.
@@ -113,7 +118,7 @@ impl Warning {
             Self::RivalClass { .. } => "rival_class",
             Self::LongPath { .. } => "long_path",
             Self::Distorted { .. } => "distorted",
-            Self::NoConeMetric { .. } => "no_cone_metric",
+            Self::NoConeMetric { .. } | Self::NoTimeForConeMetric { .. } => "no_cone_metric",
             Self::NoOverlay { .. } => "no_overlay",
             Self::NoBijection => "no_bijection",
             Self::NotCertified { .. } => "not_certified",
@@ -185,6 +190,17 @@ impl fmt::Display for Warning {
                      thin triangles are a common cause; remeshing the {side} helps."
                 )
             }
+            Self::NoTimeForConeMetric { side } => {
+                let missing = match side {
+                    MeshSide::Source => "its numbers are",
+                    MeshSide::Target => "the texture of the target is",
+                };
+                write!(
+                    f,
+                    "The map is whole and certified, but there was no time for the cone metric of the {side}, so {missing} missing: \
+                     give more time."
+                )
+            }
             Self::NoOverlay { reason } => write!(
                 f,
                 "The map is whole and certified, but both meshes could not be laid over each other, so it is shown and measured \
@@ -237,7 +253,9 @@ impl From<Warning> for WarningReport {
             | Warning::Distorted { p95: x }
             | Warning::Unmapped { share: x } => value = Some(x),
             Warning::GuessedBorders { rims } => value = Some(rims as f64),
-            Warning::NoConeMetric { side: of, .. } | Warning::Repaired { side: of, .. } => side = Some(of),
+            Warning::NoConeMetric { side: of, .. }
+            | Warning::NoTimeForConeMetric { side: of }
+            | Warning::Repaired { side: of, .. } => side = Some(of),
             Warning::Capped { side: of, share } => (value, side) = (Some(share), Some(of)),
             Warning::NoCorrespondingBorders
             | Warning::LandmarkFile { .. }

@@ -169,3 +169,43 @@ fn two_poses_while_own_points_are_placed_by_finer_levels() {
         asked_at(input, all.searched + (share * (all.relaxed - all.searched) as f64) as usize);
     }
 }
+
+/// A monitor that has no time for what is made beside a map from a stage on.
+struct Hurry {
+    from: Stage,
+    stage: Stage,
+}
+
+impl Monitor for Hurry {
+    fn enter(&mut self, stage: Stage) {
+        self.stage = stage;
+    }
+
+    fn has_time(&self) -> bool {
+        self.stage < self.from
+    }
+
+    fn step(&mut self, _step: Step) -> Result<(), Cancelled> {
+        Ok(())
+    }
+}
+
+#[test]
+fn where_there_is_no_time_parts_beside_the_map_are_left_out() {
+    let demo = demo::build("sphere-tetrahedron").unwrap();
+    let landmarks = Landmarks::from_vertices(&demo.source, &demo.target, &demo.landmarks).unwrap();
+    let input = MapInput::new(&demo.source, &demo.target, &landmarks);
+    let kinds = |from| {
+        let mut monitor = Hurry { from, stage: Stage::Landmarks };
+        let result = run(input, &PipelineOptions::default(), &mut monitor).unwrap();
+        assert!(result.report.certificate.as_ref().unwrap().bijective);
+        assert!(result.target_from_source.iter().all(Option::is_some));
+        assert_eq!(result.correspondence.is_some(), from > Stage::Transfer);
+        assert_eq!(result.texture.is_some(), from > Stage::TargetConeMetric);
+        result.report.warnings.iter().map(Warning::kind).collect::<Vec<_>>()
+    };
+    assert_eq!(kinds(Stage::Remeshing), [""; 0]);
+    assert_eq!(kinds(Stage::Transfer), ["no_overlay"]);
+    assert_eq!(kinds(Stage::TargetConeMetric), ["no_cone_metric", "no_overlay"]);
+    assert_eq!(kinds(Stage::SourceConeMetric), ["no_cone_metric", "no_cone_metric", "no_overlay"]);
+}

@@ -158,6 +158,11 @@ impl Monitor for Clock {
             || self.deadline.as_ref().is_some_and(Deadline::wants_result)
     }
 
+    fn has_time(&self) -> bool {
+        let stage = self.stage.map(|(stage, _)| stage);
+        self.deadline.as_ref().is_none_or(|deadline| deadline.has_time(stage))
+    }
+
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {
         if !self.bar.is_hidden()
             && let Some((stage, _)) = self.stage
