@@ -3,6 +3,7 @@
 use super::working::{Fit, Working};
 use crate::math::triangle::angle_at;
 use crate::mesh::HalfedgeId;
+use crate::monitor::{Cancelled, Pulse};
 use std::f64::consts::PI;
 
 /// The least excess over pi of the angles across an edge that is flipped, so that rounding decides nothing.
@@ -10,13 +11,18 @@ const CLEARLY: f64 = 1e-6;
 
 impl Working<'_> {
     /// Flips every edge whose other diagonal brings the vertices nearer to six neighbours, or as near and is Delaunay.
-    pub fn flip_towards_six(&mut self) {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn flip_towards_six(&mut self, pulse: &mut Pulse<'_>) -> Result<(), Cancelled> {
         let edges: Vec<_> = self.edges().collect();
         for h in edges {
+            pulse.beat()?;
             if !self.is_sharp(h) && self.is_worth_flipping(h) {
                 self.mesh.flip(h);
             }
         }
+        Ok(())
     }
 
     fn is_worth_flipping(&self, h: HalfedgeId) -> bool {

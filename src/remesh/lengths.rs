@@ -4,6 +4,7 @@ use super::creases::Kind;
 use super::working::{Fit, Place, Working, distance};
 use crate::math::scalar::min;
 use crate::mesh::{HalfedgeId, VertexId};
+use crate::monitor::{Cancelled, Pulse};
 
 /// The largest distance from the surface, as a share of the longest allowed edge, within which a vertex may be collapsed: the ends
 /// of limbs stay. Chosen by hand.
@@ -13,15 +14,19 @@ const MOST_NEIGHBOURS: usize = 12;
 
 impl Working<'_> {
     /// Splits the edges that are longer at their midpoints, the longest first, until there is none.
-    pub fn split_longer_than(&mut self, limit: f64) {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn split_longer_than(&mut self, limit: f64, pulse: &mut Pulse<'_>) -> Result<(), Cancelled> {
         loop {
             let mut long: Vec<_> =
                 self.edges().map(|h| (self.length(h), h)).filter(|(length, _)| *length > limit).collect();
             if long.is_empty() {
-                return;
+                return Ok(());
             }
             long.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
             for (_, h) in long {
+                pulse.beat()?;
                 // An earlier split may have put another edge in its place.
                 if self.length(h) > limit {
                     self.split(h);
@@ -43,13 +48,22 @@ impl Working<'_> {
 
     /// Collapses edges that are shorter, the shortest first, into one of their ends: where no edge gets longer than `longest`, no
     /// triangle turns over, and the surface is kept.
-    pub fn collapse_shorter_than(&mut self, limit: f64, longest: f64) {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn collapse_shorter_than(
+        &mut self,
+        limit: f64,
+        longest: f64,
+        pulse: &mut Pulse<'_>,
+    ) -> Result<(), Cancelled> {
         loop {
             let mut short: Vec<_> =
                 self.edges().map(|h| (self.length(h), h)).filter(|(length, _)| *length < limit).collect();
             short.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             let before = self.mesh.live_vertices();
             for (_, h) in short {
+                pulse.beat()?;
                 // Faces vanish, and with them halfedges.
                 if self.mesh.is_face_alive(h.face()) && self.length(h) < limit {
                     self.collapse_either_way(h, longest);
@@ -57,7 +71,7 @@ impl Working<'_> {
             }
             // Where many went, many more may go.
             if 50 * (before - self.mesh.live_vertices()) < before {
-                return;
+                return Ok(());
             }
         }
     }

@@ -8,7 +8,7 @@ use crate::math::scalar::{max, min};
 use crate::mesh::SurfaceMesh;
 use crate::mesh::check::MAX_FACES;
 use crate::mesh::surface_index::SurfaceIndex;
-use crate::monitor::{Cancelled, Monitor, Stage, Step};
+use crate::monitor::{Cancelled, Monitor, Pulse, Rising, Stage, Step};
 use std::f64::consts::FRAC_PI_4;
 
 /// The crease angle where a user says nothing, in radians.
@@ -77,6 +77,8 @@ pub enum Error {
     Cancelled(#[from] Cancelled),
 }
 
+/// The monitor is asked after so many looks at an edge.
+const ASKED_EVERY: usize = 1024;
 /// The number of rounds that are made in any case: the first bring the lengths, the others regular triangles. Chosen by hand.
 const LEAST_ROUNDS: usize = 10;
 /// The number of rounds without splits and collapses at the end. Chosen by hand.
@@ -95,6 +97,8 @@ pub fn remesh(
     options: &Options,
     monitor: &mut impl Monitor,
 ) -> Result<Remeshed, Error> {
+    // Questions within a round tell no progress.
+    let monitor = &mut Rising::new(monitor);
     monitor.enter(Stage::Remeshing);
     let wanted = options.faces;
     if wanted < 4 {
@@ -107,14 +111,15 @@ pub fn remesh(
     // The length is that of equilateral triangles.
     let mut length = (4.0 * surface.area() / (3.0_f64.sqrt() * wanted as f64)).sqrt();
     let mut creases = Creases::find(surface, options.crease_angle, length);
-    creases.hold(&tips::tips(surface, length));
+    creases.hold(&tips::tips(surface, length, &mut Pulse::new(monitor, ASKED_EVERY))?);
     let mut working = Working::new(&original, creases);
     let mut rounds = 0;
     while rounds < options.max_rounds {
-        working.split_longer_than(4.0 / 3.0 * length);
-        working.collapse_shorter_than(0.8 * length, 4.0 / 3.0 * length);
-        working.flip_towards_six();
-        working.smooth(length);
+        let pulse = &mut Pulse::new(monitor, ASKED_EVERY);
+        working.split_longer_than(4.0 / 3.0 * length, pulse)?;
+        working.collapse_shorter_than(0.8 * length, 4.0 / 3.0 * length, pulse)?;
+        working.flip_towards_six(pulse)?;
+        working.smooth(length, pulse)?;
         rounds += 1;
         let ratio = working.face_count() as f64 / wanted as f64;
         monitor.step(Step { fraction: share_done(rounds, options), residual: Some((ratio - 1.0).abs()) })?;
@@ -125,14 +130,16 @@ pub fn remesh(
     }
     check_count(working.face_count(), wanted, rounds)?;
     // Once there, they leave it no more; the last rounds repair the triangles that this may have turned over.
-    working.put_onto_surface();
+    working.put_onto_surface(&mut Pulse::new(monitor, ASKED_EVERY))?;
     for _ in 0..LAST_ROUNDS {
-        working.flip_towards_six();
-        working.smooth(length);
+        let pulse = &mut Pulse::new(monitor, ASKED_EVERY);
+        working.flip_towards_six(pulse)?;
+        working.smooth(length, pulse)?;
         monitor.step(Step { fraction: 0.95, residual: None })?;
     }
     let mesh = working.into_mesh();
-    let report = Report::new(&mesh, &original, rounds + LAST_ROUNDS);
+    let pulse = &mut Pulse::new(monitor, ASKED_EVERY);
+    let report = Report::new(&mesh, &original, rounds + LAST_ROUNDS, pulse)?;
     Ok(Remeshed { mesh, report })
 }
 

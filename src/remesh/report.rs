@@ -1,9 +1,11 @@
 //! The quality of a new mesh.
 
+use super::smoothing::SEARCH;
 use crate::math::scalar::{max, min};
 use crate::math::triangle::angle_at;
 use crate::mesh::surface_index::SurfaceIndex;
 use crate::mesh::{FaceId, SurfaceMesh};
+use crate::monitor::{Cancelled, Pulse};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -56,19 +58,27 @@ impl Report {
     }
 
     /// Measures a mesh against the surface that it stands for.
-    pub(super) fn new(mesh: &SurfaceMesh, original: &SurfaceIndex<'_>, rounds: usize) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub(super) fn new(
+        mesh: &SurfaceMesh,
+        original: &SurfaceIndex<'_>,
+        rounds: usize,
+        pulse: &mut Pulse<'_>,
+    ) -> Result<Self, Cancelled> {
         let smallest: Vec<_> = mesh.faces().map(|f| smallest_angle(mesh.corners(f)).to_degrees()).collect();
-        Self {
+        Ok(Self {
             faces: mesh.face_count(),
             rounds,
             edge_length: EdgeLengths::of(mesh),
             min_angle: smallest.iter().copied().fold(60.0, min),
             mean_min_angle: smallest.iter().sum::<f64>() / smallest.len() as f64,
             distance: Distances {
-                to_original: largest_distance(mesh, original),
-                from_original: largest_distance(original.mesh(), &SurfaceIndex::new(mesh)),
+                to_original: largest_distance(mesh, original, pulse)?,
+                from_original: largest_distance(original.mesh(), &SurfaceIndex::new(mesh), pulse)?,
             },
-        }
+        })
     }
 }
 
@@ -87,14 +97,19 @@ fn smallest_angle([p, q, r]: [DVec3; 3]) -> f64 {
     min(angle_at(p, q, r), min(angle_at(q, r, p), angle_at(r, p, q)))
 }
 
-fn largest_distance(from: &SurfaceMesh, to: &SurfaceIndex<'_>) -> f64 {
+fn largest_distance(
+    from: &SurfaceMesh,
+    to: &SurfaceIndex<'_>,
+    pulse: &mut Pulse<'_>,
+) -> Result<f64, Cancelled> {
     let samples = |f: FaceId| {
         let [p, q, r] = from.corners(f);
         [p, p.midpoint(q), q.midpoint(r), r.midpoint(p), (p + q + r) / 3.0]
     };
     let mut largest = 0.0;
     for sample in from.faces().flat_map(samples) {
+        pulse.beat_by(SEARCH)?;
         largest = max(largest, to.nearest(sample).distance);
     }
-    largest
+    Ok(largest)
 }

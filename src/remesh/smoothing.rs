@@ -5,20 +5,27 @@ use super::working::{Place, Working, distance};
 use crate::math::scalar::min;
 use crate::math::triangle;
 use crate::mesh::{HalfedgeId, VertexId};
+use crate::monitor::{Cancelled, Pulse};
 use glam::DVec3;
 use typed_index_collections::{TiVec, ti_vec};
 
 /// The largest distance of a vertex's old place from the new triangles, as a share of an edge: rims and valleys stay. Chosen by
 /// hand.
 const DEVIATION: f64 = 0.1;
+/// A search for the nearest point of the surface takes about as long as so many looks at an edge.
+pub(super) const SEARCH: usize = 8;
 
 impl Working<'_> {
     /// Moves every vertex once towards the mean of its neighbours by area, or of its two neighbours along a sharp edge; as far
     /// as no triangle turns over and the surface, of edges of about the given length, stays where it is.
-    pub fn smooth(&mut self, length: f64) {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn smooth(&mut self, length: f64, pulse: &mut Pulse<'_>) -> Result<(), Cancelled> {
         let areas = self.areas();
         let vertices: Vec<_> = self.mesh.vertices().collect();
         for v in vertices {
+            pulse.beat_by(SEARCH)?;
             let goal = match self.creases.kind(v) {
                 Kind::Corner => continue,
                 Kind::Along(_) => self.mean_along(v),
@@ -34,16 +41,22 @@ impl Working<'_> {
                 }
             }
         }
+        Ok(())
     }
 
     /// Puts every vertex onto the surface, also those few new ones that smoothing left where they were because a triangle would
     /// have become worse.
-    pub fn put_onto_surface(&mut self) {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn put_onto_surface(&mut self, pulse: &mut Pulse<'_>) -> Result<(), Cancelled> {
         let vertices: Vec<_> =
             self.mesh.vertices().filter(|&v| self.creases.kind(v) != Kind::Corner).collect();
         for v in vertices {
+            pulse.beat_by(SEARCH)?;
             self.places[v] = self.moved(v, self.places[v].position, 0.0);
         }
+        Ok(())
     }
 
     /// Distance of a vertex' present place from the triangles around it, were it moved.
