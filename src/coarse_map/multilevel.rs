@@ -15,7 +15,7 @@ use crate::layout::{BaseLayout, PatchedMesh};
 use crate::mesh::coarsening::Level;
 use crate::mesh::face_weights::{FaceWeight, FaceWeights};
 use crate::mesh::{FaceId, SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Cancelled, Monitor, OrStop, Portion, Silent, Step};
+use crate::monitor::{Cancelled, Monitor, OrStop, Portion, Silent, Step, unless_stopped};
 use crate::registration::patch_fit::OrientedSurface;
 use crate::registration::rigid_patches::{self, MappedLevel, RigidPatchOptions, SmallMeshes, WeightedLevel};
 use crate::surface_map::MapError;
@@ -244,8 +244,8 @@ impl CoarseMap<'_> {
             let share = |round: usize| round as f64 / rounds as f64;
             let part = &mut Portion::new(monitor, share(round), share(round + 1));
             let mut fit = self.patch_fit;
-            self.look(|side, seen, constraints| {
-                let patches = &mut Portion::new(part, 0.0, 0.0);
+            self.look(part, |side, seen, constraints, monitor| {
+                let patches = &mut Portion::new(monitor, 0.0, 0.0);
                 let surfaces = [side, side.other()].map(|side| surfaces[side]);
                 let found = rigid_patches::register(surfaces, seen, options, patches)?;
                 fit[side] = found.fit;
@@ -260,7 +260,7 @@ impl CoarseMap<'_> {
             // A few steps before patches are registered again. Chosen by hand, not measured at half and double.
             self.lower(&MapRelaxationOptions { max_rounds: 4, ..*fine }, part, |_| ())?;
         }
-        self.look(|_, seen, constraints| {
+        self.look(monitor, |_, seen, constraints, _| {
             for (v, constraint) in constraints {
                 if let Ok(v) = seen.vertices.binary_search(v) {
                     constraint.place = seen.images[v];
@@ -398,7 +398,7 @@ impl CoarseMap<'_> {
             let share = |round: usize| round as f64 / options.rounds as f64;
             let part = &mut Portion::new(monitor, share(round), share(round + 1));
             part.step(Step::default())?;
-            self.look(|side, seen, constraints| {
+            self.look(part, |side, seen, constraints, _| {
                 constraints.clone_from(&held[side]);
                 constraints.extend(draws(&lines[side], &lines[side.other()], seen, options.strength));
                 Ok(())
@@ -548,23 +548,27 @@ impl CoarseMap<'_> {
     /// Calls `show` for each mesh, 0 the source: its number, its level with the images of its vertices, and its constraints.
     ///
     /// # Errors
-    /// Returns the error of `show`.
+    /// [`Cancelled`], or the error of `show`.
     fn look(
         &mut self,
+        monitor: &mut dyn Monitor,
         mut show: impl FnMut(
             MeshSide,
             &MappedLevel<'_>,
             &mut Vec<(VertexId, PointConstraint)>,
+            &mut dyn Monitor,
         ) -> Result<(), Cancelled>,
     ) -> Result<(), Cancelled> {
         let present = self.present();
         for side in MeshSide::BOTH {
             let [from, onto] = [side, side.other()].map(|side| present[side].parametrised());
             let [level, other] = [side, side.other()].map(|side| present[side].weighted());
-            let Ok(locations) = locate(from, onto, &self.surface, &mut Silent) else { continue };
+            let Some(locations) = unless_stopped(locate(from, onto, &self.surface, monitor))? else {
+                continue;
+            };
             let points = locations.by_vertex.iter().map(|at| barycentric(from, onto, at));
             let seen = MappedLevel::new(level, other, points);
-            show(side, &seen, &mut self.constraints[side])?;
+            show(side, &seen, &mut self.constraints[side], monitor)?;
         }
         Ok(())
     }

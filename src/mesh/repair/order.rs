@@ -190,7 +190,7 @@ fn closed(draft: Draft, parts: Parts, monitor: &mut dyn Monitor) -> Result<Close
     monitor.step(Step::default())?;
     let (draft, dropped) = largest(oriented(draft)?, parts)?;
     monitor.step(Step::default())?;
-    let (draft, caps) = capped(draft)?;
+    let (draft, caps) = capped(draft, monitor)?;
     monitor.step(Step::default())?;
     // A corner on an edge without a face between leaves a hole without area, whose cap goes as such faces do.
     let (draft, degenerate) = without_degenerate(draft, Additions::Vertices);

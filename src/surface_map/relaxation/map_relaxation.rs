@@ -9,7 +9,7 @@ use super::evaluation::{CountedEnergy, Evaluation};
 use crate::landmarks::MeshSide;
 use crate::math::matrix2::cofactor;
 use crate::mesh::{FaceId, VertexId};
-use crate::monitor::{Cancelled, Monitor, OrStop, Portion, Pulse, Silent, Step};
+use crate::monitor::{Cancelled, Monitor, OrStop, Portion, Pulse, Step, unless_stopped};
 use crate::surface_map::energy::density::Density;
 use crate::surface_map::energy::map_energy::MapEnergy;
 use crate::surface_map::energy::point_constraint::PointConstraint;
@@ -168,7 +168,7 @@ pub fn relax_constrained<'a>(
                 energies.push(relaxation.energy());
                 monitor.map_energy(relaxation.energy());
             }
-            relaxation.exchange_roles();
+            relaxation.exchange_roles(monitor)?;
         }
         let after = relaxation.energy();
         if before - after < options.relative_decrease * after {
@@ -447,7 +447,7 @@ impl<'a> Relaxation<'a> {
     }
 
     /// Lets the other mesh move, and evaluates the same overlay from there.
-    fn exchange_roles(&mut self) {
+    fn exchange_roles(&mut self, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
         self.moving = self.moving.other();
         self.present.overlay.exchange_roles();
         let problem = &self.problems[self.moving];
@@ -455,22 +455,25 @@ impl<'a> Relaxation<'a> {
         let counted = self.counted();
         self.present.measure(problem, &z, &self.inverses[self.moving.other()], counted);
         let flat = problem.energy(&z).unwrap_or(f64::INFINITY);
-        self.locate_constrained();
+        self.locate_constrained(monitor)?;
         self.present.total = self.present.energy + self.present.constrained + self.options.barrier * flat;
+        Ok(())
     }
 
     /// Evaluates the constraints at the present state.
-    fn locate_constrained(&mut self) {
+    fn locate_constrained(&mut self, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
         let moving = self.moving;
         let sides = [moving, moving.other()]
             .map(|k| Parametrised { embedding: &self.embeddings[k], ..self.sides[k] });
         let mut constraints = self.constraints[moving];
-        if !constraints.is_empty()
-            && self.locator.fill(sides, self.surface, &mut self.locations, &mut Silent).is_err()
-        {
-            constraints = &[];
+        if !constraints.is_empty() {
+            let filled = self.locator.fill(sides, self.surface, &mut self.locations, monitor);
+            if unless_stopped(filled)?.is_none() {
+                constraints = &[];
+            }
         }
         self.present.constrain(sides, &self.unknowns[moving], constraints, &self.locations);
+        Ok(())
     }
 
     /// The energy of the map and its constraints, without the barrier; 4 for an isometry.
@@ -561,6 +564,7 @@ pub(super) mod tests {
     use crate::mesh::SurfaceMesh;
     use crate::mesh::face_weights::{FaceWeight, FaceWeights};
     use crate::mesh::generators::icosphere;
+    use crate::monitor::Silent;
     use crate::surface_map::certify;
     use crate::surface_map::parametrisation::initial::{self, InitialOptions};
     use glam::DVec3;

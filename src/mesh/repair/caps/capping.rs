@@ -1,13 +1,14 @@
 //! Every hole of a draft gets its cap.
 
 use super::super::draft::{Draft, DraftFace, Edge, FaceOrigin, NONE, edges};
+use super::super::refusal::RepairRefusal;
 use super::super::report::Hole;
 use super::fairing::{Fairness, fair};
 use super::filling::{Rim, filled};
 use super::loops::loops;
 use super::patch::Patch;
 use super::refinement::refine;
-use crate::mesh::check::MeshFault;
+use crate::monitor::{Cancelled, Monitor};
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -28,8 +29,11 @@ const SMALL: f64 = 0.6;
 /// The draft with a cap over each hole; nothing is said where there is none.
 ///
 /// # Errors
-/// [`MeshFault::PinchedVertices`] where rims touch.
-pub(in crate::mesh::repair) fn capped(mut draft: Draft) -> Result<(Draft, Option<Capped>), MeshFault> {
+/// [`RepairRefusal::Fault`] where rims touch, or [`RepairRefusal::Stopped`].
+pub(in crate::mesh::repair) fn capped(
+    mut draft: Draft,
+    monitor: &mut dyn Monitor,
+) -> Result<(Draft, Option<Capped>), RepairRefusal> {
     let edges = edges(&draft.faces);
     let loops = loops(&draft.faces, &edges)?;
     if loops.is_empty() {
@@ -39,7 +43,7 @@ pub(in crate::mesh::repair) fn capped(mut draft: Draft) -> Result<(Draft, Option
     let surroundings = Surroundings::new(&draft, &edges, &loops);
     let mut caps = Vec::with_capacity(loops.len());
     for rim in &loops {
-        let patch = surroundings.cap(&draft, rim, skin.sqrt());
+        let patch = surroundings.cap(&draft, rim, skin.sqrt(), monitor)?;
         let length = perimeter(&draft, rim);
         caps.push(Cap { rim, length, area: patch.area(), faces: patch.triangles.len() });
         add(&mut draft, rim, &patch.points[patch.rim..], patch.triangles.iter().copied());
@@ -136,7 +140,16 @@ impl Surroundings {
     }
 
     /// The cap over one rim; `size` is the square root of the area.
-    fn cap(&self, draft: &Draft, rim: &[u32], size: f64) -> Patch {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    fn cap(
+        &self,
+        draft: &Draft,
+        rim: &[u32],
+        size: f64,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Patch, Cancelled> {
         let n = rim.len();
         let at = |v: u32| draft.positions[v as usize];
         let places: Vec<DVec3> = rim.iter().map(|&v| at(v)).collect();
@@ -152,14 +165,15 @@ impl Surroundings {
         let filling = filled(&Rim { places: &places, beyond: &beyond, taken: &taken });
         let points = places.iter().copied().chain(filling.middle).collect();
         let mut patch = Patch::new(points, n, filling.triangles, taken);
-        refine(&mut patch, &rim_lengths(&places));
+        refine(&mut patch, &rim_lengths(&places), monitor)?;
         let around = |k: usize| {
             let on_rim = [rim[(k + n - 1) % n], rim[(k + 1) % n]];
             self.beside(rim[k]).iter().filter(|w| !on_rim.contains(w)).map(|&w| at(w)).collect()
         };
         let around: Vec<Vec<DVec3>> = (0..n).map(around).collect();
         let is_small = perimeter(draft, rim) < SMALL * size;
-        fair(&mut patch, &around, if is_small { Fairness::Plate } else { Fairness::Membrane });
-        patch
+        let fairness = if is_small { Fairness::Plate } else { Fairness::Membrane };
+        fair(&mut patch, &around, fairness, monitor)?;
+        Ok(patch)
     }
 }

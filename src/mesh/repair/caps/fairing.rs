@@ -5,6 +5,7 @@
 //! membrane has none inside; a thin plate has the least sum of squares over the inside and the rim.
 
 use super::patch::Patch;
+use crate::monitor::{Cancelled, Monitor, Step};
 use crate::numerics::conjugate_gradients::{CgOptions, CgWorkspace, LinearOperator, Preconditioner};
 use glam::DVec3;
 
@@ -22,17 +23,27 @@ pub(super) enum Fairness {
 
 /// Fairs a cap; `around` are the places of each rim vertex' neighbours in the surface around. A result with flat or folded triangles
 /// is not taken.
-pub(super) fn fair(patch: &mut Patch, around: &[Vec<DVec3>], fairness: Fairness) {
+///
+/// # Errors
+/// [`Cancelled`].
+pub(super) fn fair(
+    patch: &mut Patch,
+    around: &[Vec<DVec3>],
+    fairness: Fairness,
+    monitor: &mut dyn Monitor,
+) -> Result<(), Cancelled> {
     if patch.points.len() == patch.rim {
-        return;
+        return Ok(());
     }
     let system = System { stencils: stencils(patch, around), rim: patch.rim };
-    move_if(patch, &system.membrane_steps(&patch.points), |_| true);
+    monitor.step(Step::default())?;
+    move_if(patch, &system.membrane_steps(&patch.points, monitor)?, |_| true);
     if fairness == Fairness::Plate {
         let area = patch.area();
-        let steps = system.plate_steps(&patch.points);
+        let steps = system.plate_steps(&patch.points, monitor)?;
         move_if(patch, &steps, |patch| patch.area() <= PLATE_AREA * area);
     }
+    Ok(())
 }
 
 /// Moves the inner vertices, where the cap is sound and as wanted then.
@@ -136,16 +147,16 @@ impl System {
     }
 
     /// The steps to the membrane.
-    fn membrane_steps(&self, points: &[DVec3]) -> Vec<DVec3> {
+    fn membrane_steps(&self, points: &[DVec3], monitor: &mut dyn Monitor) -> Result<Vec<DVec3>, Cancelled> {
         let inner = self.rim..points.len();
         let diagonal = Diagonal(inner.clone().map(|v| 1.0 / self.stencils[v].whole).collect());
         let right: Vec<DVec3> =
             inner.map(|v| self.stencils[v].whole * self.laplacian_now(v, points)).collect();
-        steps(&Membrane(self), &diagonal, &right)
+        steps(&Membrane(self), &diagonal, &right, monitor)
     }
 
     /// The steps to the plate.
-    fn plate_steps(&self, points: &[DVec3]) -> Vec<DVec3> {
+    fn plate_steps(&self, points: &[DVec3], monitor: &mut dyn Monitor) -> Result<Vec<DVec3>, Cancelled> {
         let inside = points.len() - self.rim;
         let mut diagonal = vec![1.0; inside];
         for (n, w) in self.stencils.iter().flat_map(|stencil| &stencil.neighbours) {
@@ -161,7 +172,7 @@ impl System {
             self.transposed(laplacians.iter().map(|l| -l[axis]), &mut y);
             right.iter_mut().zip(&y).for_each(|(p, y)| p[axis] = *y);
         }
-        steps(&Plate(self), &diagonal, &right)
+        steps(&Plate(self), &diagonal, &right, monitor)
     }
 }
 
@@ -183,23 +194,34 @@ impl LinearOperator<f64> for Plate<'_> {
 }
 
 /// Solves for the three coordinates.
-fn steps(operator: &impl LinearOperator<f64>, diagonal: &Diagonal, right: &[DVec3]) -> Vec<DVec3> {
+fn steps(
+    operator: &impl LinearOperator<f64>,
+    diagonal: &Diagonal,
+    right: &[DVec3],
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<DVec3>, Cancelled> {
     let mut found = vec![DVec3::ZERO; right.len()];
     let mut workspace = CgWorkspace::default();
     for axis in 0..3 {
         let b: Vec<f64> = right.iter().map(|p| p[axis]).collect();
         let mut x = vec![0.0; b.len()];
         // A solve that does not converge is no fault here, see above.
-        let _ = workspace.solve(operator, diagonal, &b, &mut x, &SOLVE);
+        let mut answer = Ok(());
+        let _ = workspace.solve_while(operator, diagonal, &b, &mut x, &SOLVE, || {
+            answer = monitor.step(Step::default());
+            answer.is_ok()
+        });
+        answer?;
         found.iter_mut().zip(&x).for_each(|(p, x)| p[axis] = *x);
     }
-    found
+    Ok(found)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::scalar::{cos, sin};
+    use crate::monitor::Silent;
     use rustc_hash::FxHashSet;
     use std::f64::consts::TAU;
 
@@ -221,9 +243,9 @@ mod tests {
     fn a_membrane_is_flat_over_a_flat_rim_and_a_plate_goes_on_as_the_ball() {
         let heights = [Fairness::Membrane, Fairness::Plate].map(|fairness| {
             let (mut patch, around) = hole_of_a_ball();
-            crate::mesh::repair::caps::refinement::refine(&mut patch, &[0.1; 24]);
+            crate::mesh::repair::caps::refinement::refine(&mut patch, &[0.1; 24], &mut Silent).unwrap();
             assert!(patch.points.len() > 40);
-            fair(&mut patch, &around, fairness);
+            fair(&mut patch, &around, fairness, &mut Silent).unwrap();
             assert!(patch.is_sound());
             let inner = patch.points[patch.rim..].iter();
             inner.map(|p| p.z).fold(0.0, f64::max)

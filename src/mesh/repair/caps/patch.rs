@@ -1,6 +1,7 @@
 //! A cap while it is made: triangles with neighbours, split and flipped.
 
 use crate::math::triangle;
+use crate::monitor::{Cancelled, Monitor, Step};
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 
@@ -86,8 +87,12 @@ impl Patch {
 
     /// Flips edges until the angles opposite each sum to less than pi (Delaunay), as far as no edge comes twice and no triangle turns
     /// over.
-    pub fn flip_to_delaunay(&mut self) {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn flip_to_delaunay(&mut self, monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
         for _ in 0..FLIP_ROUNDS {
+            monitor.step(Step::default())?;
             let mut flips = 0;
             for h in 0..self.across.len() {
                 if self.across[h] != RIM && self.is_better_flipped(h) {
@@ -99,6 +104,7 @@ impl Patch {
                 break;
             }
         }
+        Ok(())
     }
 
     /// The corner opposite a halfedge.
@@ -176,6 +182,7 @@ const BENT_BACK: f64 = -0.5;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::monitor::Silent;
 
     /// Neighbours name each other, along one edge in opposite directions.
     fn check(patch: &Patch) {
@@ -213,7 +220,7 @@ mod tests {
             let [p, q, r] = patch.corners(t);
             patch.split(t, (p + q + r) / 3.0);
             check(&patch);
-            patch.flip_to_delaunay();
+            patch.flip_to_delaunay(&mut Silent).unwrap();
             check(&patch);
             assert!((patch.area() - area).abs() < 1e-12);
         }

@@ -1,6 +1,7 @@
 //! A cap gets vertices, as dense as at its rim and sparser away from it (Liepa 2003, section 4).
 
 use super::patch::Patch;
+use crate::monitor::{Cancelled, Monitor};
 use glam::DVec3;
 
 /// The growth of edge lengths with each unit of way from the rim: a wide hole needs few vertices in its middle. Chosen by hand.
@@ -17,7 +18,10 @@ const VERTICES: usize = 40;
 
 /// Divides the triangles of a cap and makes them Delaunay; `lengths` are the means of both edges of the rim at each of
 /// its vertices.
-pub(super) fn refine(patch: &mut Patch, lengths: &[f64]) {
+///
+/// # Errors
+/// [`Cancelled`].
+pub(super) fn refine(patch: &mut Patch, lengths: &[f64], monitor: &mut dyn Monitor) -> Result<(), Cancelled> {
     let mut lengths = lengths.to_vec();
     // A vertex in the middle is as far from the rim as it is.
     for v in patch.rim..patch.points.len() {
@@ -26,7 +30,7 @@ pub(super) fn refine(patch: &mut Patch, lengths: &[f64]) {
         let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, 0.0));
         lengths.push(nearest.1 + GROWTH * nearest.0);
     }
-    patch.flip_to_delaunay();
+    patch.flip_to_delaunay(monitor)?;
     let most = VERTICES * patch.rim + 100;
     for _ in 0..ROUNDS {
         let before = patch.points.len();
@@ -47,6 +51,7 @@ pub(super) fn refine(patch: &mut Patch, lengths: &[f64]) {
         if patch.points.len() == before {
             break;
         }
-        patch.flip_to_delaunay();
+        patch.flip_to_delaunay(monitor)?;
     }
+    Ok(())
 }

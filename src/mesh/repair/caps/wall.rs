@@ -6,6 +6,7 @@ use super::fairing::{Fairness, fair};
 use super::filling::{Rim, filled};
 use super::patch::Patch;
 use super::refinement::refine;
+use crate::monitor::{Cancelled, Monitor};
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 
@@ -19,15 +20,24 @@ pub(in crate::mesh::repair) struct CutRims {
 
 /// Closes both rims by one membrane, seen from its two sides: two caps of their own could not but cross each other. `taken` are the
 /// edges that the surface has between vertices of either rim, by their places along it.
-pub(in crate::mesh::repair) fn add_wall(draft: &mut Draft, rims: &CutRims, taken: FxHashSet<[u32; 2]>) {
+///
+/// # Errors
+/// [`Cancelled`].
+pub(in crate::mesh::repair) fn add_wall(
+    draft: &mut Draft,
+    rims: &CutRims,
+    taken: FxHashSet<[u32; 2]>,
+    monitor: &mut dyn Monitor,
+) -> Result<(), Cancelled> {
     let places: Vec<DVec3> = rims.against.iter().map(|&v| draft.positions[v as usize]).collect();
     let beyond = vec![DVec3::ZERO; places.len()];
     let filling = filled(&Rim { places: &places, beyond: &beyond, taken: &taken });
     let points = places.iter().copied().chain(filling.middle).collect();
     let mut patch = Patch::new(points, places.len(), filling.triangles, taken);
-    refine(&mut patch, &rim_lengths(&places));
-    fair(&mut patch, &[], Fairness::Membrane);
+    refine(&mut patch, &rim_lengths(&places), monitor)?;
+    fair(&mut patch, &[], Fairness::Membrane, monitor)?;
     let inside = &patch.points[patch.rim..];
     add(draft, &rims.against, inside, patch.triangles.iter().copied());
     add(draft, &rims.along, inside, patch.triangles.iter().map(|&[a, b, c]| [a, c, b]));
+    Ok(())
 }

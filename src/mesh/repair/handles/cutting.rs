@@ -54,7 +54,7 @@ pub(in crate::mesh::repair) fn without_handles(
         let mut portion = Portion::new(monitor, share(k), share(k + 1));
         let Some(graph) = Graph::new(&draft) else { break };
         let Some(shortest) = shortest_loop(&graph, &Crossings::new(&graph), &mut portion)? else { break };
-        let (after, cut) = cut(draft, &graph, &from_least(shortest));
+        let (after, cut) = cut(draft, &graph, &from_least(shortest), &mut portion)?;
         draft = after;
         cuts.push(cut);
     }
@@ -92,7 +92,12 @@ fn from_least(found: Generator) -> Generator {
 }
 
 /// Cuts a surface along a simple loop, and closes both rims.
-fn cut(mut draft: Draft, graph: &Graph, along: &Generator) -> (Draft, Cut) {
+fn cut(
+    mut draft: Draft,
+    graph: &Graph,
+    along: &Generator,
+    monitor: &mut dyn Monitor,
+) -> Result<(Draft, Cut), Cancelled> {
     let halfedges = halfedges(&draft, graph, along);
     let mut across = vec![NONE; 3 * draft.faces.len()];
     for &[a, b] in &graph.halfedges {
@@ -110,11 +115,11 @@ fn cut(mut draft: Draft, graph: &Graph, along: &Generator) -> (Draft, Cut) {
         against: halfedges.iter().map(|[_, against]| end(*against)).collect(),
     };
     let before = draft.faces.len();
-    add_wall(&mut draft, &rims, chords(graph, &along.vertices));
+    add_wall(&mut draft, &rims, chords(graph, &along.vertices), monitor)?;
     let made = &draft.faces[before..];
     let area = made.iter().map(|face| draft.face_area(face)).sum();
     let cut = Cut { vertices, places, length: along.length, faces: made.len(), area };
-    (draft, cut)
+    Ok((draft, cut))
 }
 
 /// For each edge of a loop the halfedge that runs along the loop, and the halfedge that runs against it.
