@@ -12,7 +12,7 @@ pub(super) struct Sample {
 }
 
 /// About `count` points over the faces that are wanted: the centroids of the k^2 equal triangles that a face is cut into, `least`
-/// being the least k and 16 the largest.
+/// being the least k and 16 the largest. Where there are as many faces as points, 1 is the least k.
 pub(super) fn samples(
     mesh: &SurfaceMesh,
     is_wanted: impl Fn(FaceId) -> bool,
@@ -22,6 +22,7 @@ pub(super) fn samples(
     let wanted: Vec<FaceId> = mesh.faces().filter(|&f| is_wanted(f)).collect();
     let area: f64 = wanted.iter().map(|&f| mesh.face_area(f)).sum();
     let each = area / count as f64;
+    let least = if wanted.len() < count { least } else { 1 };
     let mut samples = Vec::with_capacity(count);
     for face in wanted {
         let area = mesh.face_area(face);
@@ -62,5 +63,9 @@ mod tests {
             assert!(found.iter().all(|s| s.point.barycentric.iter().all(|w| *w > 0.0)));
         }
         assert!(samples(&ball, |_| true, 40_000, 1).len() > 30_000);
+        // Of fine meshes one point of each face is enough.
+        let faces = ball.face_count();
+        let counts = [faces - 1, faces, 2 * faces].map(|count| samples(&ball, |_| true, count, 2).len());
+        assert_eq!(counts, [faces, faces, 4 * faces]);
     }
 }
