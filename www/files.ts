@@ -30,6 +30,7 @@ export function meshFile({ file, reading }: ReadFile): MeshFile {
     name: file.name,
     bytes: file.bytes,
     ...(file.address === undefined ? {} : { address: file.address }),
+    ...(file.ofDemo === undefined ? {} : { ofDemo: file.ofDemo }),
     ...(file.picture === undefined ? {} : { picture: file.picture }),
     mesh,
     vertexCount: mesh.vertexCount,

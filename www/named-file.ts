@@ -1,6 +1,7 @@
 /** Files as names with bytes, and the error that refuses them. */
 import type { Failure } from './compute/messages.ts';
 import type { RepairOffer } from './report.ts';
+import type { DemoMesh } from './store/work.ts';
 
 /** The bytes of a file with its name. */
 export interface NamedBytes {
@@ -12,6 +13,8 @@ export interface NamedBytes {
   readonly picture?: Uint8Array;
   /** The address from which a link has loaded the file; a file from a disk has none. */
   readonly address?: string;
+  /** The demo that the file was built for; other files have none. */
+  readonly ofDemo?: DemoMesh;
 }
 
 /** Details of a refusal beside its sentence. */

@@ -79,10 +79,10 @@ class Tab {
       newId: () => `session-${ids++}`,
       now: () => clock++,
       hash: async (bytes) => Buffer.from(await crypto.subtle.digest('SHA-256', bytes)).toString('base64url'),
-      read: async ({ name, bytes, picture }) => {
+      read: async ({ name, bytes, picture, ofDemo }) => {
         await Promise.resolve();
         return () => {
-          const file = { ...mesh(name), bytes, ...(picture === undefined ? {} : { picture }) };
+          const file = { ...mesh(name), bytes, ...(picture === undefined ? {} : { picture }), ...(ofDemo === undefined ? {} : { ofDemo }) };
           this.made.push(file);
           return file;
         };
@@ -320,6 +320,15 @@ describe('a reload', () => {
     const tab = await new Tab().visit();
     const again = await new Tab(await tab.close()).visit();
     expect([again.isResumed, again.state.offer]).toEqual([false, null]);
+  });
+
+  test('knows the meshes of a demo after they were swapped', async () => {
+    const tab = await new Tab().visit();
+    const ofDemo = { id: DEMO.id, side: 0 } as const;
+    tab.store.dispatch(...CAT_AND_LION, { kind: 'mesh', side: 0, file: { ...mesh('ball.obj'), ofDemo } });
+    tab.store.dispatch({ kind: 'swap-meshes' });
+    const again = await new Tab(await tab.close()).visit();
+    expect(again.state.meshes.map((file) => file?.ofDemo)).toEqual([undefined, ofDemo]);
   });
 
   test('keeps a demo’s own work when the address still names the demo', async () => {

@@ -1,6 +1,7 @@
 /** What is on the page is sent and opened on another page, with the core and without a browser. */
 import { afterEach, beforeAll, beforeEach, describe, expect, test, vi } from 'vitest';
 import { Links } from '../../www/app/links.ts';
+import { buildDemo, demoEvents } from '../../www/app/open.ts';
 import { place, sentWorkOf, withMeshes } from '../../www/app/sent-work.ts';
 import { sharedLink } from '../../www/app/sharing.ts';
 import type { Link } from '../../www/send/link.ts';
@@ -152,6 +153,22 @@ describe('a link', () => {
     expect((await linkOf(receiver)).hash).toBe(hash);
   });
 
+  test('to a demo whose meshes were swapped asks for no files', async () => {
+    const sender = new Store();
+    const demo = { id: 'sphere-tetrahedron', title: 'Ball', sentence: '' };
+    sender.dispatch(...demoEvents(demo, await buildDemo(READER, demo, new AbortController().signal)));
+    sender.dispatch({ kind: 'swap-meshes' });
+    const { hash } = await linkOf(sender);
+    const receiver = new Store();
+    receiver.dispatch({ kind: 'ready', demos: [demo] });
+    address.hash = hash;
+    await new Links(receiver, READER).follow();
+    await until(() => receiver.state.pairs.length > 0);
+    expect(receiver.state.meshes.map((file) => file?.name)).toEqual(['sphere-tetrahedron-target.obj', 'sphere-tetrahedron-source.obj']);
+    expect(sentWorkOf(receiver.state)).toEqual(sentWorkOf(sender.state));
+    expect((await linkOf(receiver)).hash).toBe(hash);
+  });
+
   test('waits while a run goes on, and is opened by a click after it', async () => {
     vi.stubGlobal('fetch', async (url: string) => Promise.resolve(new Response(octahedron(url.includes('cat') ? 1 : 2) as BodyInit)));
     const { hash } = await linkOf(page(['https://data.example/cat.obj', 'https://data.example/lion.obj']));
@@ -198,7 +215,7 @@ describe('a link', () => {
     const links = new Links(store, READER);
     const before = store.state.pairs;
     for (const [hash, sentence] of [
-      ['#s=2.AAAA', 'newer version'],
+      ['#s=3.AAAA', 'newer version'],
       ['#s=1.AAAA', 'damaged'],
       ['#demo=none', 'no demo'],
       ['#source=http://data.example/cat.obj', 'https'],

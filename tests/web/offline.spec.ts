@@ -32,7 +32,7 @@ test('after the first visit the page works without a network, from any folder', 
   await isKept(page);
   await host.close();
 
-  for (const hash of ['', '?from=mail#demo=', '#s=2.AAAA', '#demo=sphere-tetrahedron']) {
+  for (const hash of ['', '?from=mail#demo=', '#s=3.AAAA', '#demo=sphere-tetrahedron']) {
     await page.goto('about:blank');
     await page.goto(`${host.address}${hash}`);
     await isReady(page);

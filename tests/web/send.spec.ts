@@ -202,7 +202,7 @@ test('what cannot be loaded is said in a sentence', { tag: '@long' }, async ({ p
   for (const [hash, sentence] of [
     ['#source=http://data.example/cat.obj', 'does not begin with https'],
     ['#s=1.AAAA', 'This link is damaged'],
-    ['#s=2.AAAA', 'newer version'],
+    ['#s=3.AAAA', 'newer version'],
     ['#demo=there-is-none', 'no demo of that name'],
   ] as const) {
     await open(page, `/${hash}`);

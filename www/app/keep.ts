@@ -335,10 +335,16 @@ export class Keeper {
         if (bytes === null) {
           throw new FileRefused(SENTENCES.keptUnreadable);
         }
-        const { name, address, picture: hash } = mesh;
+        const { name, address, ofDemo, picture: hash } = mesh;
         // A mesh whose picture is missing is shown without it.
         const picture = hash === undefined ? null : ((await this.#database?.mesh(hash)) ?? null);
-        const file = { name, bytes, ...(address === undefined ? {} : { address }), ...(picture === null ? {} : { picture }) };
+        const file = {
+          name,
+          bytes,
+          ...(address === undefined ? {} : { address }),
+          ...(ofDemo === undefined ? {} : { ofDemo }),
+          ...(picture === null ? {} : { picture }),
+        };
         return [meshKey(mesh), await this.#around.read(file, signal)];
       }),
     );

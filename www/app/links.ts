@@ -2,12 +2,14 @@
 import type { NamedBytes } from '../files.ts';
 import { eventsOfSides } from '../opening.ts';
 import { fetchSentence, LINK_REFUSED, otherFiles, SENTENCES } from '../messages.ts';
-import type { Link } from '../send/link.ts';
+import type { Link, LinkedFile } from '../send/link.ts';
 import { readLink } from '../send/link.ts';
 import type { Delivery } from '../send/receiver.ts';
 import { Receiver } from '../send/receiver.ts';
+import type { DemoFiles, ReadFile } from '../reading/messages.ts';
 import type { FileReader } from '../reading/reader.ts';
 import type { Event } from '../store/events.ts';
+import type { Allowed } from '../store/refused.ts';
 import { ALL_ALLOWED } from '../store/refused.ts';
 import type { MeshFile, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
@@ -146,21 +148,19 @@ export class Links {
     );
   }
 
-  async #open({ link, meshes, landmarks }: Delivery): Promise<void> {
+  async #open(delivery: Delivery): Promise<void> {
     if (this.#store.state.job.kind === 'running') {
       // A run has begun while the files came, so the link stays in the address, and a reload opens it.
       this.#store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
       return;
     }
     forget();
-    const { work } = link;
-    const arriving = (mesh: Delivery['meshes'][0]): ArrivingMesh | null => mesh && { ...mesh, address: mesh.address?.url ?? null };
-    const both = [arriving(meshes[0]), arriving(meshes[1])] as const;
+    const { link: { work }, landmarks } = delivery;
     await perform(
       this.#store,
       'Opening the link…',
       // A link without work is treated like dropped files: the user has not agreed to any repair.
-      (signal) => readArriving(this.#reader, both, work === null ? {} : ALL_ALLOWED, signal),
+      (signal) => this.#read(delivery, work === null ? {} : ALL_ALLOWED, signal),
       (read) => {
         if (work === null) {
           this.#store.dispatch(...eventsOfSides(read, landmarks, this.#store.state));
@@ -171,6 +171,26 @@ export class Links {
         });
       },
     );
+  }
+
+  /** Reads the meshes that have come, and builds those of demos. */
+  async #read({ link, meshes }: Delivery, allowed: Allowed, signal: AbortSignal): Promise<readonly [ReadFile | null, ReadFile | null]> {
+    const arriving = (mesh: Delivery['meshes'][0]): ArrivingMesh | null => mesh && { ...mesh, address: mesh.address?.url ?? null };
+    const built = new Map<string, Promise<DemoFiles>>();
+    const demoMesh = async (file: LinkedFile | null): Promise<ReadFile | null> => {
+      if (file?.kind !== 'demo') {
+        return null;
+      }
+      const demo = built.get(file.id) ?? buildDemo(this.#reader, file, signal);
+      built.set(file.id, demo);
+      return (await demo).meshes[file.side];
+    };
+    const [[source, target], demoSource, demoTarget] = await Promise.all([
+      readArriving(this.#reader, [arriving(meshes[0]), arriving(meshes[1])], allowed, signal),
+      demoMesh(link.files[0]),
+      demoMesh(link.files[1]),
+    ]);
+    return [source ?? demoSource, target ?? demoTarget];
   }
 }
 

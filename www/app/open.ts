@@ -72,7 +72,7 @@ export async function openFiles(store: Store, { reader, maps }: Openers, files: 
 }
 
 /** Builds a demo. Throws {@link FileRefused} where there is none. */
-export async function buildDemo(reader: FileReader, { id }: Demo, signal: AbortSignal): Promise<DemoFiles> {
+export async function buildDemo(reader: FileReader, { id }: Pick<Demo, 'id'>, signal: AbortSignal): Promise<DemoFiles> {
   const built = await reader.ask({ kind: 'demo', id }, signal);
   if (built === null) {
     throw new FileRefused(SENTENCES.noDemo);

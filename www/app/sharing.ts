@@ -25,6 +25,9 @@ function hashOfMesh(file: MeshFile): Promise<string | null> {
 
 /** How a link names a mesh; `null` where it cannot. */
 async function linkedFile(file: MeshFile, base: URL): Promise<LinkedFile | null> {
+  if (file.ofDemo !== undefined) {
+    return { kind: 'demo', ...file.ofDemo };
+  }
   const address = file.address === undefined ? 'no-address' : addressOf(file.address, base);
   if (typeof address !== 'string') {
     return { kind: 'address', address };

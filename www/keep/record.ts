@@ -29,7 +29,13 @@ const MOST_LISTED = 100_000;
 const Text = v.pipe(v.string(), v.maxLength(LONGEST_TEXT));
 /** A SHA-256 hash in base64url. */
 const Hash = v.pipe(v.string(), v.regex(/^[\w-]{43}$/));
-const MeshRecord = v.object({ name: Text, hash: Hash, address: v.exactOptional(Text), picture: v.exactOptional(Hash) });
+const MeshRecord = v.object({
+  name: Text,
+  hash: Hash,
+  address: v.exactOptional(Text),
+  picture: v.exactOptional(Hash),
+  ofDemo: v.exactOptional(v.object({ id: Text, side: v.picklist([0, 1]) })),
+});
 const Point = v.nullable(v.union([Index, v.object({ face: Index, barycentric: v.strictTuple([Weight, Weight, Weight]) })]));
 const PairRecord = v.object({
   id: v.pipe(Index, v.minValue(1)),
@@ -184,6 +190,7 @@ export function recordOf(
     name: file.name,
     hash: hashes.get(file.bytes) ?? '',
     ...(file.address === undefined ? {} : { address: file.address }),
+    ...(file.ofDemo === undefined ? {} : { ofDemo: file.ofDemo }),
     ...(file.picture === undefined ? {} : { picture: hashes.get(file.picture) ?? '' }),
   }));
   const table: Pair[] = [];

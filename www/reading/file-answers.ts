@@ -33,8 +33,8 @@ function demo(id: string): DemoFiles | null {
   built.free();
   return {
     meshes: [
-      { file: { name: `${id}-source.obj`, bytes: source }, reading: readings[0] },
-      { file: { name: `${id}-target.obj`, bytes: target }, reading: readings[1] },
+      { file: { name: `${id}-source.obj`, bytes: source, ofDemo: { id, side: 0 } }, reading: readings[0] },
+      { file: { name: `${id}-target.obj`, bytes: target, ofDemo: { id, side: 1 } }, reading: readings[1] },
     ],
     landmarks: { name: `${id}.json`, bytes: landmarks },
   };

@@ -1,6 +1,6 @@
 /**
  * Links: reads what an address holds behind its `#`, and writes the address of what is on the page. Three forms are read: `#demo=name`,
- * `#source=URL&target=URL&landmarks=URL`, and `#s=1.` with packed JSON. A link may come from anybody: its length is checked first, then the
+ * `#source=URL&target=URL&landmarks=URL`, and `#s=1.` or `#s=2.` with packed JSON. A link may come from anybody: its length is checked first, then the
  * shape of every part; a link that fails is refused with the reason.
  */
 import * as v from 'valibot';
@@ -8,12 +8,13 @@ import type { Side } from '../landmarks.ts';
 import type { LinkFault } from '../messages.ts';
 import type { Camera, Style } from '../store/state.ts';
 import { INITIAL } from '../store/state.ts';
+import type { DemoMesh } from '../store/work.ts';
 import type { Address } from './address.ts';
 import { addressOf, shownName } from './address.ts';
 import { pack, unpack } from './packing.ts';
 import { areSound } from './schema.ts';
 import type { SentPair, SentWork } from './schema.ts';
-import { surfacePoint, VERSION, WireLink, wirePoint } from './wire.ts';
+import { LATEST, surfacePoint, WireLink, wirePoint } from './wire.ts';
 import type { WireFile, WirePoint, WrittenLink } from './wire.ts';
 
 /** The most characters behind the `#`, with the `#`. */
@@ -21,9 +22,10 @@ export const LONGEST_LINK = 65_536;
 /** The most bytes of the JSON in a link, several times what the longest valid one unpacks to. */
 export const LARGEST_JSON = 400_000;
 
-/** A mesh that a link names: a file at an address, or one that whoever opens the link must have. */
+/** A mesh that a link names: a file at an address, the mesh of a demo, or a file that whoever opens the link must have. */
 export type LinkedFile =
   | { readonly kind: 'address'; readonly address: Address }
+  | ({ readonly kind: 'demo' } & DemoMesh)
   | { readonly kind: 'local'; readonly name: string; readonly hash: string };
 
 /** The content of a link. */
@@ -121,8 +123,8 @@ function readPacked(packed: string, base: URL): Reading {
   if (version === undefined || body === undefined) {
     return refused('damaged');
   }
-  if (Number(version) !== VERSION) {
-    return refused(Number(version) > VERSION ? 'newer' : 'damaged');
+  if (Number(version) > LATEST || Number(version) < 1) {
+    return refused(Number(version) > LATEST ? 'newer' : 'damaged');
   }
   const json = unpack(body, LARGEST_JSON);
   const wire = json === null ? null : v.safeParse(v.pipe(v.string(), v.parseJson(), WireLink), json, { abortEarly: true });
@@ -137,9 +139,10 @@ function linkedFile(file: WireFile, base: URL): LinkedFile | null {
   if (first === undefined) {
     return null;
   }
-  return name === undefined
-    ? { kind: 'address', address: address(first, base) }
-    : { kind: 'local', hash: first, name: shownName(name) };
+  if (name === undefined) {
+    return { kind: 'address', address: address(first, base) };
+  }
+  return typeof name === 'number' ? { kind: 'demo', id: first, side: name } : { kind: 'local', hash: first, name: shownName(name) };
 }
 
 function linkOf(wire: WireLink, base: URL): Link {
@@ -189,6 +192,8 @@ function wireFile(file: LinkedFile | null): WireFile {
       return [];
     case 'address':
       return [file.address.url];
+    case 'demo':
+      return [file.id, file.side];
     case 'local':
       return [file.hash, file.name];
   }
@@ -234,7 +239,8 @@ function wireLink(link: Link, work: SentWork): WrittenLink {
 /** The link with its `#`, to stand behind the page's address. */
 export function writeLink(link: Link): string {
   if (link.work !== null) {
-    return `#s=${VERSION}.${pack(JSON.stringify(wireLink(link, link.work)))}`;
+    const version = link.files.some((file) => file?.kind === 'demo') ? LATEST : 1;
+    return `#s=${version}.${pack(JSON.stringify(wireLink(link, link.work)))}`;
   }
   if (link.demo !== null) {
     return `#demo=${encodeURIComponent(link.demo)}`;

@@ -21,7 +21,7 @@ export interface Arrived extends NamedBytes {
   readonly address: Address | null;
 }
 
-/** A link with all files that it needs. */
+/** A link with all files that it needs; the meshes of demos are not among them. */
 export interface Delivery {
   readonly link: Link;
   readonly meshes: readonly [Arrived | null, Arrived | null];
@@ -184,6 +184,7 @@ function delivery({ link, fetched, given }: Arrival): Delivery {
   const arrived = (file: LinkedFile | null): Arrived | null => {
     switch (file?.kind) {
       case undefined:
+      case 'demo':
         return null;
       case 'address': {
         const bytes = fetched.get(file.address.url);

@@ -1,7 +1,7 @@
 /**
- * The JSON inside a link, version 1: its names are short and its lists flat, because an address must stay short. A version may get new
+ * The JSON inside a link, version 1 or 2: its names are short and its lists flat, because an address must stay short. A version may get new
  * fields that a reader can ignore without showing something else; everything else (repairs, textures, other kinds of points) needs a new
- * version, and a writer takes the lowest version that can hold its content.
+ * version, and a writer takes the lowest version that can hold its content. Version 2 can name the meshes of demos.
  */
 import * as v from 'valibot';
 import type { SurfacePoint } from '../landmarks.ts';
@@ -10,7 +10,8 @@ import { INITIAL } from '../store/state.ts';
 import { LONGEST_ADDRESS } from './address.ts';
 import { Axis, Cameras, Index, MOST_PAIRS, Options, Radius, StyleSchema, Text, Weight } from './schema.ts';
 
-export const VERSION = 1;
+/** The latest version, which has the mesh of a demo among its files. */
+export const LATEST = 2;
 
 /** The number of steps from 0 to 1 of a click's barycentric weights, as `rounded` makes them. */
 const STEPS = 10_000;
@@ -39,10 +40,11 @@ const WirePoint = v.union([
 ]);
 const WirePoints = v.pipe(v.array(WirePoint), v.maxLength(MOST_PAIRS));
 
-/** A mesh: its address, or its hash and name; empty for none. */
+/** A mesh: its address, its hash and name, or the id of its demo and its side there; empty for none. */
 const WireFile = v.union([
   v.strictTuple([v.pipe(v.string(), v.minLength(1), v.maxLength(LONGEST_ADDRESS))]),
   v.strictTuple([v.pipe(v.string(), v.regex(/^[\w-]{43}$/)), Text]),
+  v.strictTuple([v.pipe(Text, v.minLength(1)), v.picklist([0, 1])]),
   v.strictTuple([]),
 ]);
 

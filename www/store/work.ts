@@ -13,6 +13,8 @@ export interface MeshFile {
   readonly bytes: Uint8Array;
   /** The address at which a link finds this mesh; missing for a file from a disk. */
   readonly address?: string;
+  /** The demo that has this mesh, from which a link builds it; missing for other files. */
+  readonly ofDemo?: DemoMesh;
   /** The mesh in the core's memory; it is freed when neither the page nor its history holds the mesh. */
   readonly mesh: LoadedMesh;
   readonly vertexCount: number;
@@ -30,6 +32,13 @@ export interface Demo {
   readonly id: string;
   readonly title: string;
   readonly sentence: string;
+}
+
+/** The mesh that a demo has on a side. */
+export interface DemoMesh {
+  /** The id of the demo. */
+  readonly id: string;
+  readonly side: Side;
 }
 
 /** The direction in a mesh's file that points up on the screen. */

@@ -94,9 +94,13 @@ export function addressFile(url: string): LinkedFile {
   return { kind: 'address', address: { url, name: pathname.slice(pathname.lastIndexOf('/') + 1), host } };
 }
 
+function demoFile(id: string, side: 0 | 1): LinkedFile {
+  return { kind: 'demo', id, side };
+}
+
 export function anyLink(random: Random): Link {
   const isDemo = random.unit() < 0.3;
-  const file = (): LinkedFile => random.of([localFile('cat.off', random.of(['A', 'b', '-', '_', '7'])), addressFile('https://data.example/a/cat.obj?b=c&d=1')]);
+  const file = (): LinkedFile => random.of([localFile('cat.off', random.of(['A', 'b', '-', '_', '7'])), addressFile('https://data.example/a/cat.obj?b=c&d=1'), demoFile(random.of(['ball', 'ü=1']), random.of([0, 1]))]);
   const one = file();
   return {
     demo: isDemo ? random.of(['ball', 'cat & dog', 'ü=1']) : null,
