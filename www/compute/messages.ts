@@ -105,7 +105,7 @@ export interface Progress {
   /** Share of the whole run that is done, 0 to 1; it never falls. */
   readonly share: number;
   readonly residual: number | null;
-  /** The energy of the map that is being relaxed; an isometry has energy 4. */
+  /** The energy of the map that is being relaxed; 4 is the least, which every conformal map has. */
   readonly energy: number | null;
 }
 

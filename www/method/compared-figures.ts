@@ -23,7 +23,7 @@ function haveConverged({ cone_metric: { source, target }, warnings }: Report): b
 export function figuresOf(report: Report): readonly Figure[] {
   const { distortion } = report;
   return [
-    { name: 'Energy E', note: 'Mean symmetric Dirichlet energy; 4 is an isometry', value: figure(distortion.energy) },
+    { name: 'Energy E', note: 'Mean symmetric Dirichlet energy; 4 is the least, of a map that keeps every angle', value: figure(distortion.energy) },
     { name: 'Log density', note: 'Mean logarithm of the distortion by area; 0 is an isometry', value: figure(distortion.mean_log) },
     {
       name: 'L2 stretch',

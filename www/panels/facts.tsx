@@ -37,7 +37,7 @@ function curvatureError(flow: ConeMetricReport | null): string {
 
 function qualityFacts({ distortion, cone_metric: flows, base_domain: base }: Report): Fact[] {
   return [
-    { name: 'Energy', value: figure(distortion.energy), note: 'Symmetric Dirichlet energy; 4 would be an isometry' },
+    { name: 'Energy', value: figure(distortion.energy), note: 'Symmetric Dirichlet energy; 4 is the least, and would keep every angle' },
     {
       name: 'Distortion',
       value: `mean ${figure(distortion.mean)}, median ${figure(distortion.median)}, 95 % below ${figure(distortion.p95)}, at most ${figure(distortion.max)}`,

@@ -21,7 +21,7 @@ export function progressNumber({ progress, energies }: Running): string {
   if (energy !== null) {
     const isFinal = stage === 'relaxation';
     const which = isFinal ? 'Energy' : 'Energy of the map being tried';
-    return `${which} ${energy.toFixed(3)} (4 is an isometry)${isFinal ? `, level ${energies.length}` : ''}`;
+    return `${which} ${energy.toFixed(3)} (4 is the least)${isFinal ? `, level ${energies.length}` : ''}`;
   }
   return residual === null ? '' : `Residual ${figure(residual)}`;
 }
