@@ -2,6 +2,7 @@
 import type { MadeFiles } from '../compute/messages.ts';
 import { download } from '../dom.ts';
 import { wholePairs } from '../store/order.ts';
+import { shownResult } from '../store/staleness.ts';
 import type { Result, State } from '../store/state.ts';
 import type { Actions } from './actions.ts';
 
@@ -100,7 +101,7 @@ function reportAndMap({ output }: Result): readonly Export[] {
 
 /** The files that can be saved now, the most wanted first. */
 export function exportsOf(state: State, saving: Saving): readonly Export[] {
-  const { result } = state;
+  const result = shownResult(state);
   const files = result === null ? [] : [...MAP_EXPORTS.flatMap((file) => exportOf(result, file, saving) ?? []), ...wrapped(result, saving), ...reportAndMap(result)];
   const landmarks = {
     format: 'JSON',

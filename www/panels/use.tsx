@@ -1,6 +1,7 @@
 /** The fourth step, Use: what the map can be used for, and the files that can be saved. */
 import type { VNode } from 'preact';
 import { lateModule } from '../late-module.ts';
+import { SENTENCES } from '../messages.ts';
 import { shownResult } from '../store/staleness.ts';
 import type { PartProps } from './actions.ts';
 import { exportsOf } from './exports.ts';
@@ -27,8 +28,12 @@ export function UsePanel(props: PartProps): VNode {
       </section>
       <section>
         <h3>Take away</h3>
-        {state.result === null && (
-          <p class="quiet">The map’s files come here once it is made: the textured mesh, the images of all vertices, the report.</p>
+        {shownResult(state) === null && (
+          <p class="quiet">
+            {state.result === null
+              ? 'The map’s files come here once it is made: the textured mesh, the images of all vertices, the report.'
+              : SENTENCES.mapOfOthers}
+          </p>
         )}
         <ul class="export-list" aria-label="Downloads">
           {files.map((file) => (
