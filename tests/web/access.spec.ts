@@ -132,6 +132,14 @@ test('the menu of what the surfaces show stays inside the window', async ({ page
   }
 });
 
+test('a phone shows the whole hint', async ({ page }) => {
+  await page.setViewportSize({ width: 375, height: 780 });
+  await openDemo(page);
+  await expect(page.locator('#hint')).toContainText('make the map');
+  const lacks = await page.locator('#hint').evaluate((hint) => [hint.scrollWidth - hint.clientWidth, hint.scrollHeight - hint.clientHeight]);
+  expect(lacks).toEqual([0, 0]);
+});
+
 test('what a box or a dialog holds ends before its border', async ({ page }) => {
   await openDemo(page, '#demo=sphere-tetrahedron');
   const sticksOut = (selector: string): Promise<number[]> =>

@@ -164,6 +164,22 @@ test('both views turn together, also where the cameras go by themselves, and wha
   expect(grey).toBeGreaterThan(20);
 });
 
+test('no view cuts off the name of its map, however narrow it is', async () => {
+  await openStep(page, 'method');
+  await compareWith('Before relaxation');
+  for (const width of [1024, 853, 375]) {
+    await page.setViewportSize({ width, height: 800 });
+    for (const view of ['#view-source', '#view-target']) {
+      const beyond = (): Promise<number> =>
+        page.locator(`${view} .coarse-map`).evaluate((mark) => {
+          const edge = mark.closest('.caption')?.getBoundingClientRect().right ?? 0;
+          return Math.max(0, mark.getBoundingClientRect().right - edge, mark.scrollWidth - mark.clientWidth);
+        });
+      await expect.poll(beyond, { message: `${view} at ${width}` }).toBeLessThan(1);
+    }
+  }
+});
+
 test('it fits a phone and a wide window, light and dark, without findings', { tag: '@long' }, async () => {
   for (const width of [360, 1280]) {
     await page.setViewportSize({ width, height: 800 });

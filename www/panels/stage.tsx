@@ -36,17 +36,21 @@ function Caption({ state, side }: { readonly state: State; readonly side: Side }
   const refused = state.refused?.meshes.find((mesh) => mesh.side === side);
   if (refused !== undefined) {
     return (
-      <p class="caption clipped">
-        {side === 0 ? 'Source' : 'Target'} <strong>{refused.file.name}</strong>{' '}
+      <p class="caption">
+        <span class="clipped">
+          {side === 0 ? 'Source' : 'Target'} <strong>{refused.file.name}</strong>
+        </span>{' '}
         <span class="not-accepted">not accepted</span> <span class="facts">{integer(refused.examined.faceCount)} triangles</span>
       </p>
     );
   }
   return (
-    <p class="caption clipped">
+    <p class="caption">
       {file !== null && (
         <>
-          {shown === 0 ? 'Source' : 'Target'} <strong>{file.name}</strong>{' '}
+          <span class="clipped">
+            {shown === 0 ? 'Source' : 'Target'} <strong>{file.name}</strong>
+          </span>{' '}
           {mark === null ? (
             <span class="facts">
               {integer(file.faceCount)} triangles{changed(file)}
