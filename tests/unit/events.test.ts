@@ -283,6 +283,22 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
       ...toast('Continued with horse and lion.'),
     },
   },
+  received: {
+    before: { ...DOUBTED, nextId: 9, ui: ui(READY, { selected: 2 }), history: gone(READY), error: 'Something failed.' },
+    event: { work: { ...workOf(READY), meshes: [HORSE, LION], pairs: [pair(1, 5, 6, 'nose')] }, ui: {} },
+    step: 'Open horse and lion',
+    changes: {
+      meshes: [HORSE, LION],
+      pairs: [{ ...pair(9, 5, 6, 'nose'), number: 1 }],
+      nextId: 10,
+      findings: [],
+      error: null,
+      suggestions: [[], []],
+      ui: ui(READY, {}),
+      job: { kind: 'idle' },
+      ...toast('Opened horse and lion.'),
+    },
+  },
   undo: {
     before: {
       ...READY,

@@ -13,6 +13,7 @@ import { FileRefused } from '../../www/named-file.ts';
 import type { Event } from '../../www/store/events.ts';
 import type { MeshFile, State } from '../../www/store/state.ts';
 import { Store } from '../../www/store/store.ts';
+import { workOf } from '../../www/store/work.ts';
 import { DEMO, mesh, READY } from './fixtures.ts';
 
 /** A core that accepts every vertex up to 1000. */
@@ -320,6 +321,13 @@ describe('a reload', () => {
     const tab = await new Tab().visit();
     const again = await new Tab(await tab.close()).visit();
     expect([again.isResumed, again.state.offer]).toEqual([false, null]);
+  });
+
+  test('has work that was sent, before anything is done to it', async () => {
+    const tab = await new Tab().visit();
+    tab.store.dispatch({ kind: 'received', work: workOf(READY), ui: {} });
+    const again = await new Tab(await tab.close()).visit();
+    expect(contentOf(again.state)).toEqual(contentOf(tab.state));
   });
 
   test('knows the meshes of a demo after they were swapped', async () => {

@@ -189,6 +189,18 @@ describe('a link', () => {
     expect(address.hash).toBe(hash);
   });
 
+  test('whose files cannot be loaded stays in the address until other work is on the page', async () => {
+    vi.stubGlobal('fetch', async () => Promise.resolve(new Response('', { status: 503 })));
+    const receiver = page();
+    address.hash = '#source=a.obj&target=b.obj';
+    await new Links(receiver, READER).follow();
+    await until(() => receiver.state.error?.includes('503') === true);
+    receiver.dispatch({ kind: 'error-closed' });
+    expect(address.hash).toBe('#source=a.obj&target=b.obj');
+    receiver.dispatch({ kind: 'pair-deleted', id: 1 });
+    expect(address.hash).toBe('');
+  });
+
   test('of addresses brings meshes and landmarks', async () => {
     vi.stubGlobal('fetch', async (url: string) =>
       Promise.resolve(new Response(url.endsWith('.json') ? '{"pairs":[[0,1],[1,0],[2,2],[3,3]]}' : (octahedron(1) as BodyInit))),

@@ -13,9 +13,11 @@ import type { Allowed } from '../store/refused.ts';
 import { ALL_ALLOWED } from '../store/refused.ts';
 import type { MeshFile, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
-import { buildDemo, demoEvents, openDemo } from './open.ts';
+import { isSameWork } from '../store/work.ts';
+import { buildDemo, demoEvents, openDemo, showOwnLink } from './open.ts';
 import type { ArrivingMesh } from './sent-work.ts';
 import { place, readArriving, withMeshes } from './sent-work.ts';
+import type { Outcome } from './task.ts';
 import { perform } from './task.ts';
 
 const ORIGIN = 'The link';
@@ -25,11 +27,13 @@ function forget(): void {
   history.replaceState(null, '', location.pathname + location.search);
 }
 
-/** Follows links. */
+/** Follows links. A link whose files cannot be loaded stays in the address, so that a reload tries again, until other work is on the page. */
 export class Links {
   readonly #store: Store;
   readonly #reader: FileReader;
   readonly #receiver: Receiver;
+  /** Whether the address still has a link that has failed. */
+  #hasFailed = false;
 
   constructor(store: Store, reader: FileReader) {
     this.#store = store;
@@ -42,9 +46,14 @@ export class Links {
         void this.#open(delivery);
       },
       failed: (fault, { name, host }) => {
-        forget();
+        this.#hasFailed = true;
         store.dispatch({ kind: 'error', sentence: fetchSentence(fault, name, host) });
       },
+    });
+    store.subscribe((state, previous) => {
+      if (this.#hasFailed && !isSameWork(state, previous)) {
+        this.#end('left-out');
+      }
     });
   }
 
@@ -86,6 +95,7 @@ export class Links {
 
   /** Gives the link up and removes it from the address. */
   readonly cancel = (): void => {
+    this.#hasFailed = false;
     forget();
     this.#receiver.cancel();
   };
@@ -112,6 +122,7 @@ export class Links {
 
   /** Begins with a link; returns whether the demo that it names has come. */
   async #begin(link: Link): Promise<boolean> {
+    this.#hasFailed = false;
     const { demo, work } = link;
     if (demo === null) {
       this.#receiver.receive(link);
@@ -127,12 +138,12 @@ export class Links {
 
   async #openDemoWork(id: string, work: NonNullable<Link['work']>): Promise<void> {
     const demo = this.#store.state.demos.find((candidate) => candidate.id === id);
-    forget();
     if (demo === undefined) {
+      forget();
       this.#store.dispatch({ kind: 'error', sentence: SENTENCES.noDemo });
       return;
     }
-    await perform(
+    const outcome = await perform(
       this.#store,
       'Opening the link…',
       (signal) => buildDemo(this.#reader, demo, signal),
@@ -146,6 +157,15 @@ export class Links {
         }
       },
     );
+    this.#end(outcome);
+  }
+
+  /** Puts the link of what is on the page into the address in place of the followed one, unless that has failed. */
+  #end(outcome: Outcome): void {
+    this.#hasFailed = outcome === 'failed';
+    if (outcome !== 'failed') {
+      showOwnLink(this.#store.state);
+    }
   }
 
   async #open(delivery: Delivery): Promise<void> {
@@ -154,9 +174,8 @@ export class Links {
       this.#store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
       return;
     }
-    forget();
     const { link: { work }, landmarks } = delivery;
-    await perform(
+    const outcome = await perform(
       this.#store,
       'Opening the link…',
       // A link without work is treated like dropped files: the user has not agreed to any repair.
@@ -171,6 +190,7 @@ export class Links {
         });
       },
     );
+    this.#end(outcome);
   }
 
   /** Reads the meshes that have come, and builds those of demos. */

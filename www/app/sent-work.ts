@@ -7,7 +7,6 @@ import type { ReadFile } from '../reading/messages.ts';
 import type { FileReader } from '../reading/reader.ts';
 import { readMesh } from '../reading/reader.ts';
 import type { Event } from '../store/events.ts';
-import { NO_HISTORY } from '../store/history.ts';
 import type { Allowed } from '../store/refused.ts';
 import type { Demo, MeshFile, State, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
@@ -84,7 +83,7 @@ export function place(store: Store, origin: string, sent: SentWork, meshes: Work
     options: sent.options,
   };
   const ui = { style: sent.style, cameras: sent.cameras };
-  const events: Event[] = [{ kind: 'restored', work, ui, history: NO_HISTORY }];
+  const events: Event[] = [{ kind: 'received', work, ui }];
   checkFit({ name: origin }, events, store.state);
   // The core checks pairs that have both points; the points of half pairs must belong to the meshes, too.
   if (!areMarksGood(work)) {

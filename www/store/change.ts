@@ -10,7 +10,7 @@ import { stepName, toastOf } from './steps.ts';
 import { isSameWork, workOf } from './work.ts';
 
 /** Events that move in the history or replace it, and so make no step. */
-const MOVES: readonly Event['kind'][] = ['undo', 'redo', 'history-begun', 'restored'];
+const MOVES: readonly Event['kind'][] = ['undo', 'redo', 'history-begun', 'restored', 'received'];
 
 /** The state after these events, none of which moves in the history, as one step. */
 function stepped(before: State, events: readonly Event[]): State {

@@ -75,6 +75,8 @@ export type Event =
   | { readonly kind: 'options'; readonly options: Partial<RunOptions> }
   /** Kept work is brought back: with its own steps where nothing was done on the page, else as one step. */
   | { readonly kind: 'restored'; readonly work: Work; readonly history: History; readonly ui: Partial<Ui> }
+  /** Work that was sent comes onto the page, as one step. */
+  | { readonly kind: 'received'; readonly work: Work; readonly ui: Partial<Ui> }
   /** The last step is undone. */
   | { readonly kind: 'undo' }
   /** The step that was undone last is made again. */

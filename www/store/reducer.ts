@@ -23,7 +23,7 @@ import {
   withTargetsExchanged,
 } from './pairs.ts';
 import { withoutSide } from './refused.ts';
-import { withRestored } from './restore.ts';
+import { withReceived, withRestored } from './restore.ts';
 import { withFindings } from './settle.ts';
 import { withSideMarks } from './side-marks.ts';
 import { withRadius, withSettled } from './soft.ts';
@@ -147,6 +147,8 @@ export function update(state: State, event: Event): State {
       return patched(state, { options: patched(state.options, event.options) });
     case 'restored':
       return patched(withRestored(state, event, event.ui), { refused: null });
+    case 'received':
+      return patched(withReceived(state, event.work, event.ui), { refused: null });
     case 'undo':
       return withStep(state, undone(state.history, workOf(state)));
     case 'redo':

@@ -1,7 +1,7 @@
-/** Brings kept work back onto the page. */
+/** Brings work onto the page that was kept, or sent. */
 import type { Pair } from '../landmarks.ts';
 import type { History, Step } from './history.ts';
-import { recorded } from './history.ts';
+import { NO_HISTORY, recorded } from './history.ts';
 import type { State, Ui } from './state.ts';
 import type { Work } from './work.ts';
 import { workName, workOf } from './work.ts';
@@ -23,19 +23,37 @@ function highestId(work: Work, { past, future }: History): number {
   return Math.max(0, ...works.map(({ pairs }) => pairs.reduce((most, { id }) => Math.max(most, id), 0)));
 }
 
-/** The state with kept work: with its own steps where nothing was done on the page, else as one step that can be undone. */
-export function withRestored(state: State, kept: { readonly work: Work; readonly history: History }, ui: Partial<Ui>): State {
-  const { work, history } = raised(kept.work, kept.history, state.nextId - 1);
-  const { past, future } = state.history;
-  const isFresh = past.length + future.length === 0;
-  const name = `Continue with ${workName(work.meshes.map((file) => file?.name ?? null))}`;
+function nameOf(work: Work): string {
+  return workName(work.meshes.map((file) => file?.name ?? null));
+}
+
+/** Whether nothing was done on the page. */
+function isFresh({ history: { past, future } }: State): boolean {
+  return past.length + future.length === 0;
+}
+
+/** The state with work that replaces its own as one step of this name; `history` has the work's own steps. */
+function replaced(state: State, { work, history }: ReturnType<typeof raised>, ui: Partial<Ui>, name: string): State {
   return {
     ...state,
     ...work,
     ui: { ...state.ui, ...ui },
-    history: isFresh ? history : recorded(state.history, { name, work: workOf(state) }, work, null),
+    history: recorded(state.history, { name, work: workOf(state) }, work, null),
     nextId: Math.max(state.nextId, highestId(work, history) + 1),
-    toast: isFresh ? null : { sentence: `${name.replace('Continue', 'Continued')}.`, undo: true },
     error: null,
   };
+}
+
+/** The state with work that was sent, as one step that can be undone. */
+export function withReceived(state: State, sent: Work, ui: Partial<Ui>): State {
+  const toast = isFresh(state) ? null : { sentence: `Opened ${nameOf(sent)}.`, undo: true };
+  return { ...replaced(state, raised(sent, NO_HISTORY, state.nextId - 1), ui, `Open ${nameOf(sent)}`), toast };
+}
+
+/** The state with kept work: with its own steps where nothing was done on the page, else as one step that can be undone. */
+export function withRestored(state: State, kept: { readonly work: Work; readonly history: History }, ui: Partial<Ui>): State {
+  const own = raised(kept.work, kept.history, state.nextId - 1);
+  const name = nameOf(kept.work);
+  const back = replaced(state, own, ui, `Continue with ${name}`);
+  return isFresh(state) ? { ...back, history: own.history, toast: null } : { ...back, toast: { sentence: `Continued with ${name}.`, undo: true } };
 }
