@@ -162,6 +162,7 @@ export const SENTENCES = {
   brokenZip: 'this zip cannot be unpacked: it may be damaged or cut off.',
   largeZip: 'this zip unpacks to more than the page can take.',
   manyInZip: 'this zip holds more than 1000 files: put only the meshes and their parts into it.',
+  mapNotKept: 'The map of this work was not kept: make it again, or open its file if you have saved it.',
   mapOfOthers: 'The last map is of other meshes, and comes back with them.',
   noDemo: 'There is no demo of that name. All demos are in the step Meshes.',
   whileRunning: 'A map is being computed. Cancel it first, then change the meshes.',

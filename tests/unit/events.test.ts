@@ -265,10 +265,12 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
       work: { ...workOf(READY), meshes: [HORSE, LION], pairs: [pair(1, 5, 6, 'nose'), pair(7, 8, null)], options: OPTIONS },
       history: gone({ ...READY, pairs: [pair(20, 0, 0)] }),
       ui: { theme: 'dark' },
+      hadMap: true,
     },
     step: 'Continue with horse and lion',
     changes: {
       meshes: [HORSE, LION],
+      mapless: [HORSE, LION],
       pairs: [
         { ...pair(9, 5, 6, 'nose'), number: 1 },
         { ...pair(15, 8, null), number: 7 },

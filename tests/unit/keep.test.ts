@@ -12,9 +12,10 @@ import type { Tabs } from '../../www/keep/tabs.ts';
 import { FileRefused } from '../../www/named-file.ts';
 import type { Event } from '../../www/store/events.ts';
 import type { MeshFile, State } from '../../www/store/state.ts';
+import { isMapless } from '../../www/store/staleness.ts';
 import { Store } from '../../www/store/store.ts';
 import { workOf } from '../../www/store/work.ts';
-import { DEMO, mesh, READY } from './fixtures.ts';
+import { DEMO, mesh, OUTPUT, READY, REPORT } from './fixtures.ts';
 
 /** A core that accepts every vertex up to 1000. */
 vi.mock('../../www/wasm/page.js', () => ({
@@ -321,6 +322,20 @@ describe('a reload', () => {
     const tab = await new Tab().visit();
     const again = await new Tab(await tab.close()).visit();
     expect([again.isResumed, again.state.offer]).toEqual([false, null]);
+  });
+
+  test('says that the map of the work is missing until there is one again', async () => {
+    const tab = await catAndLion();
+    tab.does({ kind: 'run-started' }, { kind: 'run-done', output: OUTPUT, report: REPORT });
+    const again = await new Tab(await tab.close()).visit();
+    expect([isMapless(tab.state), isMapless(again.state)]).toEqual([false, true]);
+    again.does({ kind: 'pair-deleted', id: again.state.pairs[0]?.id ?? 0 });
+    const twice = await new Tab(await again.close()).visit();
+    expect(isMapless(twice.state)).toBe(true);
+    twice.does({ kind: 'swap-meshes' });
+    expect(isMapless(twice.state)).toBe(false);
+    twice.does({ kind: 'undo' }, { kind: 'run-started' }, { kind: 'run-done', output: OUTPUT, report: REPORT });
+    expect(isMapless(twice.state)).toBe(false);
   });
 
   test('has work that was sent, before anything is done to it', async () => {
@@ -702,7 +717,7 @@ describe('a store that fails', () => {
     const tab = await catAndLion();
     const kept = keptOf(tab.state);
     const hashes = new Map([...kept.files].map((file) => [file.bytes, 'x'.repeat(43)] as const));
-    const record = recordOf(kept, { id: 'other', saved: 1, ui: tab.state.ui }, hashes);
+    const record = recordOf(kept, { id: 'other', saved: 1, ui: tab.state.ui, hadMap: false }, hashes);
     const fresh = new Map([['new', new Uint8Array(1)]]);
     const broken = { ...record, work: { ...record.work, groundTruth: (() => undefined) as unknown as string } };
     await expect(database.write({ record: broken, fresh, dropped: [], absorbed: 'session-1' })).rejects.toThrow();

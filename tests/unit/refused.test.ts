@@ -210,7 +210,7 @@ test('a mesh that was refused is left out when something else comes there, or wh
   expect(after(state, { kind: 'mesh', side: 1, file: mesh('cat.off') }).refused).toBeNull();
   expect(after(state, { kind: 'refused-closed', side: 0 }).refused).toBe(state.refused);
   expect(after(state, { kind: 'refused-closed', side: 1 }).refused).toBeNull();
-  const restored = after(state, { kind: 'restored', work: workOf(READY), history: NO_HISTORY, ui: {} });
+  const restored = after(state, { kind: 'restored', work: workOf(READY), history: NO_HISTORY, ui: {}, hadMap: false });
   expect([restored.meshes, restored.refused]).toEqual([READY.meshes, null]);
 });
 

@@ -18,6 +18,7 @@ import { readMesh } from '../reading/reader.ts';
 import { hashOf } from '../send/hash.ts';
 import { heldMeshes, NO_HISTORY } from '../store/history.ts';
 import { ALL_ALLOWED } from '../store/refused.ts';
+import { isMapless, shownResult } from '../store/staleness.ts';
 import type { MeshFile, Offer, State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { isSameWork } from '../store/work.ts';
@@ -101,11 +102,17 @@ function within<T>(milliseconds: number, promised: Promise<T>): Promise<T> {
   });
 }
 
+/** Whether the work has a map, or had one before it was brought back. */
+function hadMap(state: State): boolean {
+  return isMapless(state) || shownResult(state) !== null;
+}
+
 /** Whether two states agree in everything that is kept. */
 function isKept(state: State, previous: State): boolean {
   const [ui, before] = [state.ui, previous.ui];
   return (
     isSameWork(state, previous) &&
+    hadMap(state) === hadMap(previous) &&
     state.up === previous.up &&
     state.history === previous.history &&
     ui.step === before.step &&
@@ -315,7 +322,8 @@ export class Keeper {
             throw new FileRefused(SENTENCES.keptUnreadable);
           }
           const areStepsGood = [...history.past, ...history.future].every((step) => areMarksGood(step.work));
-          this.#store.dispatch({ kind: 'restored', work, ui: record.ui, history: areStepsGood ? history : NO_HISTORY });
+          const steps = areStepsGood ? history : NO_HISTORY;
+          this.#store.dispatch({ kind: 'restored', work, ui: record.ui, history: steps, hadMap: record.hadMap === true });
         } finally {
           this.#freeUnused(files);
         }
@@ -429,7 +437,7 @@ export class Keeper {
           hashes.set(part, await this.#hashOf(part));
         }
       }
-      const record = recordOf(kept, { id: this.#id, saved: this.#around.now(), ui: state.ui }, hashes);
+      const record = recordOf(kept, { id: this.#id, saved: this.#around.now(), ui: state.ui, hadMap: hadMap(state) }, hashes);
       const needed = new Set(record.hashes);
       const fresh = new Map([...hashes].flatMap(([bytes, hash]) => (this.#written?.has(hash) === true ? [] : [[hash, bytes]])));
       const dropped = [...(this.#written ?? [])].filter((hash) => !needed.has(hash));

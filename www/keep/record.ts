@@ -1,7 +1,7 @@
 /**
  * A session as the browser keeps it, version 1: the work, the steps before and after it, and how it was viewed. A mesh is named by the
- * hash of its bytes, which are stored apart, so that moving a landmark does not write a mesh again. The last map is not kept: it can be
- * made again from the same work. Fields that later versions add must be optional, or else the version becomes 2.
+ * hash of its bytes, which are stored apart, so that moving a landmark does not write a mesh again. The last map is not kept, only that there
+ * was one: it can be made again from the same work. Fields that later versions add must be optional, or else the version becomes 2.
  *
  * Pairs are in one table, and each step lists the indices of its pairs there: neighbouring steps share nearly all of their pairs, and a
  * session opens quickly when each pair is checked only once. Steps that share a list share it here, too, and the browser keeps it so.
@@ -84,6 +84,8 @@ const Session = v.object({
   saved: v.pipe(v.number(), v.finite()),
   /** Whether the user began anew when the session was offered. */
   declined: v.boolean(),
+  /** Whether there was a map of the meshes. */
+  hadMap: v.exactOptional(v.boolean()),
   /** The hashes of all meshes that the session needs. */
   hashes: v.array(Hash),
   /** The pairs of all steps: each pair once for every change of it. */
@@ -183,7 +185,7 @@ function once<K extends object, T>(make: (key: K) => T): (key: K) => T {
 /** The record of a session. `hashes` has the hash of each mesh's bytes, and of its picture's where that is a separate file. */
 export function recordOf(
   kept: Kept,
-  { id, saved, ui }: { readonly id: string; readonly saved: number; readonly ui: Ui },
+  { id, saved, ui, hadMap }: { readonly id: string; readonly saved: number; readonly ui: Ui; readonly hadMap: boolean },
   hashes: ReadonlyMap<Uint8Array, string>,
 ): SessionRecord {
   const mesh = once((file: MeshFile): MeshRecord => ({
@@ -212,6 +214,7 @@ export function recordOf(
     id,
     saved,
     declined: false,
+    hadMap,
     hashes: [...new Set([...kept.files].map(mesh).flatMap(({ hash, picture }) => (picture === undefined ? [hash] : [hash, picture])))],
     // The lists of the schema's type are not read-only; these lists are never written to.
     pairs: table as SessionRecord['pairs'],

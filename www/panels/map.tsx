@@ -1,7 +1,7 @@
 /** The third step, Map: how good the map is, and what may be wrong with it. */
 import type { VNode } from 'preact';
 import { reopenedSentence, SENTENCES, staleSentence } from '../messages.ts';
-import { shownResult, staleness } from '../store/staleness.ts';
+import { isMapless, shownResult, staleness } from '../store/staleness.ts';
 import type { Demo, MapProof, Result } from '../store/state.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { Certificate } from './certificate.tsx';
@@ -97,6 +97,7 @@ export function MapPanel({ state, actions, shell }: PartProps): VNode {
           actions={actions}
         />
       )}
+      {result === null && isMapless(state) && <Note sentence={SENTENCES.mapNotKept} />}
       {result === null && state.job.kind !== 'running' && (
         <p class="quiet">{state.result !== null && SENTENCES.mapOfOthers} The map gives every point of the source its partner on the target, through all landmark pairs.</p>
       )}

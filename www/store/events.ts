@@ -73,8 +73,8 @@ export type Event =
   /** Two pairs exchange their targets. */
   | { readonly kind: 'targets-exchanged'; readonly ids: readonly number[] }
   | { readonly kind: 'options'; readonly options: Partial<RunOptions> }
-  /** Kept work is brought back: with its own steps where nothing was done on the page, else as one step. */
-  | { readonly kind: 'restored'; readonly work: Work; readonly history: History; readonly ui: Partial<Ui> }
+  /** Kept work is brought back, without its map: with its own steps where nothing was done on the page, else as one step. */
+  | { readonly kind: 'restored'; readonly work: Work; readonly history: History; readonly ui: Partial<Ui>; readonly hadMap: boolean }
   /** Work that was sent comes onto the page, as one step. */
   | { readonly kind: 'received'; readonly work: Work; readonly ui: Partial<Ui> }
   /** The last step is undone. */

@@ -82,7 +82,7 @@ function withError(state: State, { sentence, failure }: Extract<Event, { readonl
 /** The state with a new map. Where the surfaces are plain, or show what this map does not have, the pattern is chosen. */
 function withResult(state: State, result: Result): State {
   const earlier = state.result === null ? state.earlier : earlierOf(state.result);
-  const done = { ...state, result, earlier };
+  const done = { ...state, result, earlier, mapless: null };
   const { surface } = state.ui.style;
   const isShown = surface !== 'shaded' && isKnown(result, surface);
   return isShown ? done : withStyle(done, { surface: 'pattern' });
@@ -146,7 +146,7 @@ export function update(state: State, event: Event): State {
     case 'options':
       return patched(state, { options: patched(state.options, event.options) });
     case 'restored':
-      return patched(withRestored(state, event, event.ui), { refused: null });
+      return patched(withRestored(state, event, event.ui), { refused: null, mapless: event.hadMap ? event.work.meshes : null });
     case 'received':
       return patched(withReceived(state, event.work, event.ui), { refused: null });
     case 'undo':

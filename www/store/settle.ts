@@ -25,14 +25,18 @@ export function withFindings(state: State): State {
   return findings === state.findings || findings.length + state.findings.length === 0 ? state : { ...state, findings };
 }
 
-/** The last map; `null` where no step leads back to its meshes. */
-function reachableResult(state: State): State['result'] {
-  const { result } = state;
-  if (result === null || shownResult(state) !== null) {
-    return result;
+/** Whether these meshes are on the page, or a step leads back to them. */
+function areReachable(state: State, meshes: State['meshes']): boolean {
+  if (SIDES.every((side) => meshes[side] === state.meshes[side])) {
+    return true;
   }
   const held = heldMeshes(state.history, state);
-  return result.inputs.meshes.every((file) => file === null || held.has(file)) ? result : null;
+  return meshes.every((file) => file === null || held.has(file));
+}
+
+/** What belongs to meshes that can be reached; else `null`. */
+function reachable<T>(state: State, one: T | null, meshesOf: (one: T) => State['meshes']): T | null {
+  return one !== null && areReachable(state, meshesOf(one)) ? one : null;
 }
 
 /** The state made consistent with its work, which was another one in `before`. */
@@ -42,7 +46,9 @@ export function inLine(state: State, before: State): State {
   const isSelected = selected === state.ui.selected && hovered === state.ui.hovered;
   const pruned = isSelected ? state : { ...state, ui: { ...state.ui, selected, hovered } };
   const matching = stillMatching(pruned.matching, pruned, before);
-  const next = withFindings({ ...pruned, matching, result: reachableResult(pruned) });
+  const result = reachable(pruned, pruned.result, ({ inputs }) => inputs.meshes);
+  const mapless = reachable(pruned, pruned.mapless, (meshes) => meshes);
+  const next = withFindings({ ...pruned, matching, result, mapless });
   if (next.meshes === before.meshes) {
     return next;
   }

@@ -68,6 +68,11 @@ export function shownResult({ result, meshes }: Pick<State, 'result' | 'meshes'>
   return isTheirs ? result : null;
 }
 
+/** Whether the meshes on the page were brought back without their map, and have none since. */
+export function isMapless({ mapless, meshes }: Pick<State, 'mapless' | 'meshes'>): boolean {
+  return mapless !== null && SIDES.every((side) => mapless[side] === meshes[side]);
+}
+
 /** Whether the pairs of the last map are still where they were; others may have been added. */
 export function hasItsCones(state: State): boolean {
   const { result, pairs } = state;

@@ -210,6 +210,8 @@ export interface State extends Work {
   readonly job: Job;
   /** The last map. It stays when its inputs change, and is up to date again when they come back. */
   readonly result: Result | null;
+  /** The meshes that were brought back without their map. */
+  readonly mapless: Work['meshes'] | null;
   /** The proof of a map, which may be another one than the last. */
   readonly proof: MapProof | null;
   /** The map before the last one, of this visit. */
@@ -275,6 +277,7 @@ export const INITIAL: State = {
   },
   job: { kind: 'idle' },
   result: null,
+  mapless: null,
   proof: null,
   earlier: null,
   comparison: null,
