@@ -4,6 +4,7 @@ import type { LandmarkFile, Side, SurfacePoint } from './landmarks.ts';
 import { fileSentence, failureSentence } from './messages.ts';
 import type { NamedBytes } from './named-file.ts';
 import { FileRefused } from './named-file.ts';
+import { baseName } from './store/landmark-file.ts';
 import type { LandmarkContent, LandmarkFormatInfo, LoadedMesh } from './wasm/page.js';
 import {
   landmarkContent,
@@ -138,6 +139,18 @@ export function filesOf(
   } catch (thrown) {
     throw refusal(undefined, thrown);
   }
+}
+
+/**
+ * The meshes that a landmark file names and that are not those on the page, which are given by their names. Folders, endings and capitals
+ * do not count.
+ */
+export function othersNamed({ source, target }: LandmarkFile, meshes: readonly (string | null)[]): readonly string[] {
+  const stem = (name: string): string => stemOf(name).toLowerCase();
+  return [source, target].flatMap((named, side) => {
+    const present = meshes[side] ?? null;
+    return named === undefined || stem(named) === '' || present === null || stem(named) === stem(present) ? [] : [baseName(named)];
+  });
 }
 
 /** The mesh whose name is that of the landmark file; `null` where neither or both have it. */

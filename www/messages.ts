@@ -309,10 +309,30 @@ export function otherMesh(side: 0 | 1, found: string, wanted: string | null): st
   return `the ${side === 0 ? 'source' : 'target'}, ${found}, is not the mesh that this map was made with${right}. Drop the map together with the right one.`;
 }
 
+/** A mesh that is not on the page; its name is `null` where it is not known. */
+interface MissingMesh {
+  readonly side: 0 | 1;
+  readonly name: string | null;
+}
+
+function waitingFor(whose: 'its' | 'their', missing: readonly MissingMesh[]): string {
+  const meshes = missing.map(({ side, name }) => `${whose} ${side === 0 ? 'source' : 'target'}${name === null ? '' : ` (${name})`}`);
+  return `for ${listed(meshes)}: drop ${missing.length === 1 ? 'it' : 'them'} here.`;
+}
+
 /** A sentence about the meshes that a map waits for. */
-export function mapWaits(name: string, missing: readonly { readonly side: 0 | 1; readonly name: string | null }[]): string {
-  const meshes = missing.map(({ side, name: mesh }) => `its ${side === 0 ? 'source' : 'target'}${mesh === null ? '' : ` (${mesh})`}`);
-  return `${name} waits for ${listed(meshes)}: drop ${missing.length === 1 ? 'it' : 'them'} here.`;
+export function mapWaits(name: string, missing: readonly MissingMesh[]): string {
+  return `${name} waits ${waitingFor('its', missing)}`;
+}
+
+/** A sentence about the meshes that landmark pairs wait for. */
+export function landmarksWait(pairs: number, missing: readonly MissingMesh[]): string {
+  return `${count(pairs, 'landmark pair')} ${pairs === 1 ? 'waits' : 'wait'} ${waitingFor(pairs === 1 ? 'its' : 'their', missing)}`;
+}
+
+/** A remark about landmarks of a file that names other meshes, without a full stop. */
+export function madeForOthers(names: readonly string[]): string {
+  return `these landmarks were made for ${listed(names)}, and may lie elsewhere on these meshes: look whether they fit, or drop the ${names.length === 1 ? 'mesh' : 'meshes'} here`;
 }
 
 /** A sentence about a map that was opened from a file. */

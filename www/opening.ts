@@ -2,9 +2,9 @@
 import { checkFit, examinedOf, meshFile, misfit } from './files.ts';
 import type { LandmarkFile, Side } from './landmarks.ts';
 import { otherSide, SIDES } from './landmarks.ts';
-import { ownFileRead, pairsRead, sideCalledLike, sideRead } from './landmark-files.ts';
+import { othersNamed, ownFileRead, pairsRead, sideCalledLike, sideRead } from './landmark-files.ts';
 import { checkMeshes, headOf, sideIn } from './map-files.ts';
-import { failureSentence, remarksSentence, repairedSentence, SENTENCES } from './messages.ts';
+import { failureSentence, madeForOthers, remarksSentence, repairedSentence, SENTENCES } from './messages.ts';
 import type { NamedBytes } from './named-file.ts';
 import { FileRefused } from './named-file.ts';
 import type { BadMesh, MeshReading, ReadFile, SortedFile } from './reading/messages.ts';
@@ -72,6 +72,12 @@ function told(remarks: readonly string[]): Event[] {
   return remarks.length === 0 ? [] : [{ kind: 'error', sentence: remarksSentence(remarks) }];
 }
 
+/** A remark about a file of pairs that names other meshes than those on the page; empty for none. */
+function remarkOnNames(file: LandmarkFile, meshes: State['meshes']): string[] {
+  const others = othersNamed(file, meshes.map((mesh) => mesh?.name ?? null));
+  return others.length === 0 ? [] : [madeForOthers(others)];
+}
+
 /** The events for the pairs of files that need both meshes to be read. */
 function pairEvents(files: readonly NamedBytes[], [source, target]: State['meshes']): Event[] {
   if (source === null || target === null) {
@@ -118,7 +124,7 @@ function landmarksOf(files: readonly GivenMarks[], over: Side | null): Landmarks
   }
   if (first.content === 'pairs') {
     const { file: pairs, remarks } = ownFileRead(first);
-    return { events: () => [{ kind: 'landmarks', file: pairs }, ...told(remarks)], file: first, pairs };
+    return { events: (meshes) => [{ kind: 'landmarks', file: pairs }, ...told([...remarkOnNames(pairs, meshes), ...remarks])], file: first, pairs };
   }
   const isWhole = first.content === 'both';
   const events = (meshes: State['meshes']): Event[] => (isWhole ? pairEvents([first], meshes) : sideEvents(first, over, meshes));

@@ -88,6 +88,18 @@ describe('landmark files', () => {
     expect(JSON.stringify(miscounted)).toMatch(/1 labels for \d+ pairs.*1 more remark/);
   });
 
+  test('that name other meshes are opened, and the meshes told', () => {
+    const remarks = (named: Partial<LandmarkFile>): string => {
+      const { events } = openingOf([text('pairs.json', JSON.stringify({ ...landmarks, ...named }))], null, open);
+      expect(after(open, ...events).pairs).toHaveLength(landmarks.pairs.length);
+      return events.flatMap((event) => (event.kind === 'error' ? [event.sentence] : [])).join(' ');
+    };
+    expect(remarks({})).toBe('');
+    expect(remarks({ source: 'scans/Horse.ply', target: 'cat' })).toBe('');
+    expect(remarks({ source: 'scans/cow.off', target: 'lion.off' })).toMatch(/^These landmarks were made for cow\.off and lion\.off, .*or drop the meshes here\.$/);
+    expect(remarks({ target: 'lion.off' })).toMatch(/^These landmarks were made for lion\.off, .*or drop the mesh here\.$/);
+  });
+
   test('that cannot be placed are refused with what to do', () => {
     const far = text('far.csv', 'name,x,y,z\nnose,1e6,0,0\n');
     expect(refusal([far], 0, open)).toMatch(/^far\.csv: Landmark 1 \("nose"\) of the source lies .* off the surface/);

@@ -4,7 +4,7 @@ import type { Download, FileChooser, Page } from '@playwright/test';
 import { expect, test } from './test.ts';
 import { zipSync } from 'fflate';
 import { tetrahedron } from '../unit/tetrahedron.ts';
-import { openDemo, openStep, pairs } from './page.ts';
+import { open, openDemo, openStep, pairs, TETRAHEDRON } from './page.ts';
 
 type Point = number | { readonly face: number; readonly barycentric: readonly number[] };
 interface Landmarks {
@@ -163,4 +163,19 @@ test('meshes in several files come by the choosers: a set, a zip, an OBJ with it
     expect(endings).toEqual(expect.arrayContaining(['.obj', '.gltf', '.bin', '.png', '.jpg', '.mtl', '.zip']));
     await expect(page.locator(chooser)).toHaveAttribute('multiple');
   }
+});
+
+test('landmarks alone say which meshes they wait for, and can be left', async ({ page }) => {
+  await page.route('**/none.obj', async (route) => route.fulfill({ status: 404 }));
+  await open(page, '#source=none.obj');
+  await expect(page.locator('#error')).toBeVisible();
+  const content = '{"source": "a.obj", "target": "b.obj", "pairs": [[0, 0], [1, 1], [2, 2], [3, 3]]}';
+  await page.locator('#landmark-file').setInputFiles({ name: 'pairs.json', mimeType: 'application/json', buffer: Buffer.from(content) });
+  const notice = page.locator('#landmarks-notice');
+  await expect(notice).toContainText('4 landmark pairs wait for their source (a.obj) and their target (b.obj): drop them here.');
+  await page.locator('#mesh-files').setInputFiles({ name: 'b.obj', mimeType: 'application/octet-stream', buffer: Buffer.from(TETRAHEDRON) });
+  await expect(notice).toContainText('4 landmark pairs wait for their source (a.obj): drop it here.');
+  await notice.getByRole('button', { name: 'Leave the landmarks' }).click();
+  await expect(notice).toBeHidden();
+  await expect(page.getByText('4 landmark pairs deleted.')).toBeVisible();
 });

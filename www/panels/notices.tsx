@@ -1,11 +1,13 @@
 /**
- * The notices that wait for the user's decision: about a link that was opened, meshes that a repair would help, and a newer build of the
- * page.
+ * The notices that wait for the user's decision: about a link that was opened, a map and landmarks without their meshes, meshes that a
+ * repair would help, and a newer build of the page.
  */
 import type { VNode } from 'preact';
+import { SIDES } from '../landmarks.ts';
 import { missingOf } from '../map-files.ts';
-import { filesNeeded, loadQuestion, loadingSentence, mapWaits, repairCommand, SENTENCES } from '../messages.ts';
+import { filesNeeded, landmarksWait, loadQuestion, loadingSentence, mapWaits, repairCommand, SENTENCES } from '../messages.ts';
 import type { AwaitedMap } from '../store/awaited.ts';
+import { wholePairs } from '../store/order.ts';
 import type { Receiving } from '../store/receiving.ts';
 import type { RefusedMesh } from '../store/refused.ts';
 import type { State } from '../store/state.ts';
@@ -77,6 +79,25 @@ function MapNotice({ state, map, actions }: { readonly state: State; readonly ma
   );
 }
 
+/** The notice about landmark pairs that wait for their meshes; `null` where none do. */
+function LandmarksNotice({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode | null {
+  const pairs = wholePairs(state).length;
+  const missing = SIDES.filter((side) => state.meshes[side] === null).map((side) => ({ side, name: state.named[side] }));
+  return pairs === 0 || missing.length === 0 ? null : (
+    <div class="notice" id="landmarks-notice">
+      <p>{landmarksWait(pairs, missing)}</p>
+      <button
+        type="button"
+        onClick={() => {
+          actions.dispatch({ kind: 'pairs-cleared' });
+        }}
+      >
+        Leave the landmarks
+      </button>
+    </div>
+  );
+}
+
 /** The notice about a refused mesh, with the repair that would help, where there is one. */
 function RefusedNotice({ mesh, state, actions }: { readonly mesh: RefusedMesh } & Pick<PartProps, 'state' | 'actions'>): VNode {
   const { kind } = state.job;
@@ -113,6 +134,7 @@ export function Notices({ state, actions }: Pick<PartProps, 'state' | 'actions'>
     <div class="notices" role="status">
       <LinkNotice receiving={state.receiving} actions={actions} />
       {state.awaited !== null && <MapNotice state={state} map={state.awaited} actions={actions} />}
+      <LandmarksNotice state={state} actions={actions} />
       {state.refused?.meshes.map((mesh) => (
         <RefusedNotice key={mesh.side} mesh={mesh} state={state} actions={actions} />
       ))}

@@ -3,7 +3,7 @@ import type { VNode } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import { offerSentence } from '../messages.ts';
 import type { Offer, Toast } from '../store/state.ts';
-import { shortName } from '../store/work.ts';
+import { workName } from '../store/work.ts';
 import type { Actions, PartProps } from './actions.ts';
 import { IconButton } from './controls.tsx';
 
@@ -55,10 +55,9 @@ function ToastBox({ toast, actions }: { readonly toast: Toast; readonly actions:
 }
 
 function OfferBox({ offer, actions }: { readonly offer: Offer; readonly actions: Actions }): VNode {
-  const names = offer.names.flatMap((name) => (name === null ? [] : [shortName(name)]));
   return (
     <div class="toast" id="offer">
-      <p>{offerSentence(names.join(' and '), offer.pairs)}</p>
+      <p>{offerSentence(workName(offer.names), offer.pairs)}</p>
       <button type="button" onClick={actions.continueWork}>
         Continue
       </button>
