@@ -130,6 +130,11 @@ export function settledSentence(settled: number, farthest: number): string {
   return `${pairs} settled, ${settled === 1 ? '' : 'at most '}${(100 * farthest).toFixed(1)} % of the target’s size away, and ${settled === 1 ? 'is' : 'are'} held there.`;
 }
 
+/** A sentence about the user's own work, which a demo has replaced. */
+export function workGone(name: string, pairs: number): string {
+  return `The demo took the place of ${name}${pairs === 0 ? '' : ` with ${count(pairs, 'landmark pair')}`}.`;
+}
+
 /** A sentence about pairs whose points on one mesh were removed with it. */
 export function pointsGone(number: number): string {
   return `${count(number, 'landmark pair')} lost a point with its mesh; the partners wait for new ones.`;

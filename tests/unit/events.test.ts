@@ -170,7 +170,7 @@ const CASES: { readonly [K in Event['kind']]: Case<K> } = {
     before: { ...READY, error: 'Something failed.' },
     event: { demo: DEMO },
     step: 'Open the demo “Ball”',
-    changes: { demo: DEMO, error: null },
+    changes: { demo: DEMO, error: null, ...toast('The demo took the place of cat and lion with 4 landmark pairs.') },
   },
   'point-picked': {
     before: { ...HALF, found: DOUBTED.found, findings: [DOUBT], error: 'Something failed.' },

@@ -3,6 +3,7 @@ import { beforeEach, describe, expect, test } from 'vitest';
 import { freeForgotten } from '../../www/app/open.ts';
 import type { Side, SurfacePoint } from '../../www/landmarks.ts';
 import { SIDES } from '../../www/landmarks.ts';
+import { change } from '../../www/store/change.ts';
 import type { Event } from '../../www/store/events.ts';
 import { heldMeshes } from '../../www/store/history.ts';
 import type { Axis, State, Work } from '../../www/store/state.ts';
@@ -200,6 +201,13 @@ describe('the toast of a step that dropped something', () => {
     expect(store.state.toast).toBeNull();
     store.dispatch(...demo);
     expect(store.state.toast).toEqual({ sentence: '1 landmark pair removed.', undo: true });
+  });
+
+  test('is there for a demo over own meshes, also without landmarks, as when the browser goes back to its link', () => {
+    const own = after(INITIAL, { kind: 'mesh', side: 0, file: mesh('cat.off') });
+    const demo = change(own, [{ kind: 'mesh', side: 0, file: mesh('ball.obj') }, { kind: 'demo', demo: DEMO }]);
+    expect(demo.toast).toEqual({ sentence: 'The demo took the place of cat.', undo: true });
+    expect(after(demo, { kind: 'undo' }).meshes).toBe(own.meshes);
   });
 });
 

@@ -10,10 +10,12 @@ import {
   pointsReplaced,
   SENTENCES,
   takenSentence,
+  workGone,
 } from '../messages.ts';
 import type { RunOptions } from '../report.ts';
 import type { Event } from './events.ts';
 import type { State, Toast } from './state.ts';
+import { workName } from './work.ts';
 
 type Of<K extends Event['kind']> = Extract<Event, { kind: K }>;
 
@@ -106,6 +108,9 @@ export function toastOf(events: readonly Event[], before: State, after: State): 
   const undo = true;
   if (events.some(({ kind }) => kind === 'mirrored')) {
     return { sentence: SENTENCES.mirrored, undo };
+  }
+  if (after.demo !== null && before.demo === null && before.meshes.some((file) => file !== null)) {
+    return { sentence: workGone(workName(before.meshes.map((file) => file?.name ?? null)), before.pairs.length), undo };
   }
   const dropped = droppedCount(before, after);
   const kinds = new Set(events.map(({ kind }) => kind));
