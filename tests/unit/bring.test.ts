@@ -3,6 +3,7 @@ import { afterEach, beforeAll, beforeEach, describe, expect, test, vi } from 'vi
 import type { Choices, DeskState, MadeFile } from '../../www/bring/desk.ts';
 import { Desk, wishOf } from '../../www/bring/desk.ts';
 import type { BringMessage, BringRequest, GivenFileReport } from '../../www/bring/messages.ts';
+import { separatorFault } from '../../www/bring/separators.ts';
 import { bringSentence, hindrance, kindSentence, savedSentence, WORDS } from '../../www/bring/words.ts';
 import type { Result } from '../../www/store/state.ts';
 import { givenFile } from '../../www/wasm/core.js';
@@ -111,6 +112,12 @@ describe('files that were chosen', () => {
     core = null;
     desk.take([file('heat.csv')]);
     expect(desk.state).toMatchObject({ error: WORDS.noCore, work: null, given: { kind: 'values' } });
+  });
+
+  test('are refused where they are a folder', () => {
+    taken([VALUES], 'heat.csv');
+    desk.refuseFolder('poses');
+    expect(desk.state).toMatchObject({ error: 'poses is a folder: drop the files that are in it.', work: null, given: null });
   });
 
   test('of which the later ones count, whatever comes of the earlier', () => {
@@ -236,6 +243,17 @@ describe('the core', () => {
   beforeAll(startCoreModule);
 
   const told = (content: string): GivenFileReport => JSON.parse(givenFile(new TextEncoder().encode(content))) as GivenFileReport;
+
+  test('does not read tables without commas, and the page says what to do', () => {
+    const fault = (content: string): string | null => separatorFault(new TextEncoder().encode(content));
+    for (const content of ['vertex;heat;part\r\n0;1,5;2\r\n', '0;1.5\n1;2.5\n']) {
+      expect(() => told(content)).toThrow();
+      expect(fault(content)).toBe('its columns are separated by semicolons: save the table with commas between the columns, and with points in the numbers');
+    }
+    expect(fault('vertex\theat\n0\t1\n')).toContain('tabs');
+    expect(fault('Dear reader; hello\nsome words\n')).toBeNull();
+    expect(fault('\u0000;\n')).toBeNull();
+  });
 
   test('tells by its content what a file may hold', () => {
     expect(told('vertex,heat,part\n0,1,2\n')).toEqual(VALUES);

@@ -239,6 +239,10 @@ test('what does not fit is told with its file and line, and nothing is lost', as
   await expect(panel().locator('.bring-kind')).toHaveCount(0);
   await expect(panel().getByRole('button', { name: 'Bring onto the source' })).toHaveCount(0);
   await refused([upload('empty.csv', '')], 'empty.csv: The file is empty.');
+  await refused(
+    [upload('semicolons.csv', 'vertex;height\n0;1,5\n')],
+    'semicolons.csv: Its columns are separated by semicolons: save the table with commas between the columns, and with points in the numbers.',
+  );
   await refused([upload('a.obj', TARGET.obj), upload('b.csv', 'height\n1\n')], 'b.csv: several files at once must be one mesh in several poses, and this is none. Bring it alone.');
   await choose([upload('other.obj', SOURCE.obj)], 'other.obj: the target in another pose.');
   await panel().getByRole('button', { name: 'Bring onto the source' }).click();

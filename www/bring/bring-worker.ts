@@ -4,6 +4,7 @@ import { progressListener } from '../compute/progress-listener.ts';
 import { writeArchive } from '../send/archive.ts';
 import init, { bringAcross, givenFile } from '../wasm/core.js';
 import type { Answers, BringFailure, BringMessage, BringRequest, Brought, GivenFileReport } from './messages.ts';
+import { separatorFault } from './separators.ts';
 
 declare const self: DedicatedWorkerGlobalScope;
 
@@ -47,7 +48,9 @@ async function lookedAt(files: readonly Blob[]): Promise<readonly GivenFileRepor
     try {
       reports.push(JSON.parse(givenFile(bytes)) as GivenFileReport);
     } catch (thrown) {
-      throw new Failed({ ...failureOf(thrown), file: number });
+      const failure = failureOf(thrown);
+      const message = failure.code === 'transfer' ? (separatorFault(bytes) ?? failure.message) : failure.message;
+      throw new Failed({ ...failure, message, file: number });
     }
     post({ kind: 'progress', share: (number + 1) / files.length });
   }

@@ -1,5 +1,6 @@
 /** Holds what the user has chosen to bring across and the results; it stays while other steps are open. */
 import type { Core } from '../compute/core.ts';
+import { SENTENCES } from '../messages.ts';
 import { endingOf } from '../named-file.ts';
 import type { Result } from '../store/state.ts';
 import { bringAcross, lookAt } from './client.ts';
@@ -177,6 +178,12 @@ export class Desk {
         },
       });
     }
+  }
+
+  /** Refuses a folder that was dropped. */
+  refuseFolder(name: string): void {
+    void this.#begin('looking');
+    this.#refuse(`${name} ${SENTENCES.folder}`);
   }
 
   /** Brings the files across, and saves the result. */

@@ -6,7 +6,7 @@ import { useEffect, useReducer, useRef } from 'preact/hooks';
 import type { Choices, DeskState, Given, Role } from '../bring/desk.ts';
 import { Desk, SIZES } from '../bring/desk.ts';
 import { hindrance, KIND_NAMES, kindSentence } from '../bring/words.ts';
-import { download } from '../dom.ts';
+import { download, folderAmong } from '../dom.ts';
 import '../method/watched.css';
 import { shownResult } from '../store/staleness.ts';
 import type { Actions, PartProps } from './actions.ts';
@@ -185,7 +185,12 @@ function Chooser({ desk, state }: { readonly desk: Desk; readonly state: DeskSta
       }}
       onDrop={(event) => {
         event.preventDefault();
-        take(event.dataTransfer?.files);
+        const folder = folderAmong(event.dataTransfer?.items);
+        if (folder === null) {
+          take(event.dataTransfer?.files);
+        } else {
+          desk.refuseFolder(folder);
+        }
       }}
     >
       <button
