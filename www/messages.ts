@@ -260,11 +260,11 @@ export function offerSentence(name: string, pairs: number): string {
   return `Continue with ${name}, ${count(pairs, 'pair')}?`;
 }
 
-/** The name of a suggestion in a sentence. */
-export function suggestionName({ letter, reason, partner }: Suggestion, all: readonly Suggestion[]): string {
+/** The name of a suggestion in a sentence; `isTogether` where left and right are taken together. */
+export function suggestionName({ letter, reason, partner }: Suggestion, all: readonly Suggestion[], isTogether: boolean): string {
   const what = reason === 'tip' ? 'the end of a limb' : 'a place far from all landmarks';
   const isThere = all.some((other) => other.letter === partner);
-  return `${letter}, ${what}${partner !== null && isThere ? `, looks like ${partner}: mind left and right` : ''}`;
+  return `${letter}, ${what}${partner !== null && isThere ? `, looks like ${partner}: ${isTogether ? 'both are taken together' : 'mind left and right'}` : ''}`;
 }
 
 /** A hint at what to do next. */

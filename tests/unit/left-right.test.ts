@@ -267,14 +267,17 @@ describe('the planes of the meshes', () => {
         return Promise.resolve(JSON.stringify(answer));
       },
     } as unknown as FileReader;
-    // Pairs 1 and 2 are each other's mirror image.
-    const mirror: Mirror = (_, point) => ({ ...across(0), pair: point === 0 ? 2 : point === 1 ? 1 : null });
+    // Vertices whose numbers sum to nine are each other's mirror images.
+    const mirror: Mirror = (side, point) => {
+      const holder = store.state.pairs.find(({ points }) => points[side] === 9 - Number(point));
+      return { ...across(0), pair: holder?.id ?? null };
+    };
     const planes = new Planes(store, reader, mirror);
     const packed = (name: string): State['meshes'][0] => ({ ...mesh(name), mesh: { packed: () => new Uint8Array() } as never });
     store.dispatch(
       { kind: 'mesh', side: 0, file: packed('cat.off') ?? mesh('') },
       { kind: 'mesh', side: 1, file: packed('lion.off') ?? mesh('') },
-      { kind: 'landmarks', file: { pairs: [[0, 10], [1, 11], [2, 12]] } },
+      { kind: 'landmarks', file: { pairs: [[0, 10], [1, 11], [9, 12]] } },
     );
     return { store, asked: wishes, planes };
   }
@@ -290,12 +293,42 @@ describe('the planes of the meshes', () => {
     await settled();
     expect(wishes).toEqual(['{"kind":"found"}', '{"kind":"found"}']);
     expect(store.state.leftRight.planes.map((plane) => plane?.answer)).toEqual([ANSWER, ANSWER]);
-    expect(twinOf(store.state, 1)?.id).toBe(2);
+    expect(twinOf(store.state, 1)?.id).toBe(3);
     store.dispatch({ kind: 'left-right', isOn: false });
     store.dispatch({ kind: 'left-right', isOn: true });
     store.dispatch({ kind: 'swap-meshes' });
     await settled();
     expect(wishes).toHaveLength(2);
+  });
+
+  test('make suggestions go together that mirror each other, though they were not known to be alike', async () => {
+    const { store } = opened(ANSWER);
+    const rings = (): number[] => store.state.suggestions[0].map(({ point }) => point);
+    store.dispatch({ kind: 'left-right', isOn: true });
+    await settled();
+    // Vertex 3 is the mirror image of vertex 6, and 4 of 5; 8 is that of vertex 1, which pair 2 has.
+    store.dispatch({ kind: 'suggested', side: 0, suggestions: [3, 4, 5, 8].map((point) => suggestion(point, String(point))) });
+    store.dispatch({ kind: 'point-picked', side: 0, point: 6, across: null });
+    await settled();
+    expect(rings()).toEqual([3, 4, 5, 8]);
+    store.dispatch({ kind: 'point-picked', side: 0, point: 3, across: null });
+    await settled();
+    expect(twinOf(store.state, 4)?.id).toBe(5);
+    expect(rings()).toEqual([4, 5, 8]);
+    store.dispatch({ kind: 'suggestions-taken', side: 0 });
+    await settled();
+    expect([twinOf(store.state, 6)?.id, twinOf(store.state, 2)?.id]).toEqual([7, 8]);
+  });
+
+  test('remove the suggestion at whose place a partner stands', async () => {
+    const { store } = opened(ANSWER);
+    store.dispatch({ kind: 'left-right', isOn: true });
+    await settled();
+    store.dispatch({ kind: 'suggested', side: 0, suggestions: [suggestion(3, 'A'), suggestion(4, 'B')] });
+    store.dispatch({ kind: 'point-picked', side: 0, point: 6, across: { ...across(30), pair: null } });
+    await settled();
+    expect(store.state.pairs).toHaveLength(5);
+    expect(store.state.suggestions[0].map(({ letter }) => letter)).toEqual(['B']);
   });
 
   test('can be chosen: across an axis, or between the two points that were placed last', async () => {
@@ -305,7 +338,7 @@ describe('the planes of the meshes', () => {
     planes.choose(1, 'z');
     planes.choose(0, 'pins');
     await settled();
-    expect(wishes.slice(2)).toEqual(['{"kind":"axis","axis":2}', '{"kind":"points","points":[1,2]}']);
+    expect(wishes.slice(2)).toEqual(['{"kind":"axis","axis":2}', '{"kind":"points","points":[1,9]}']);
     expect(store.state.leftRight.planes.map((plane) => [plane?.choice, plane?.answer])).toEqual([
       ['pins', null],
       ['z', null],

@@ -53,7 +53,12 @@ function twinsOn(state: State, side: Side, mirror: Mirror): [number, number][] {
   return [...across].flatMap(([a, b]) => (b !== null && a < b && across.get(b) === a ? [[a, b] as [number, number]] : []));
 }
 
-/** Owns the planes that were found for the meshes. */
+/** The number of points on a side. */
+function countOn({ pairs }: Pick<State, 'pairs'>, side: Side): number {
+  return pairs.filter(({ points }) => points[side] !== null).length;
+}
+
+/** Owns the planes that were found for the meshes, and brings the suggested places in line with them. */
 export class Planes {
   readonly #store: Store;
   readonly #reader: FileReader;
@@ -71,6 +76,16 @@ export class Planes {
           // The question is asked only after the store has told all listeners of the present change.
           queueMicrotask(() => {
             this.#askOnce(side, file);
+          });
+        }
+      }
+    });
+    store.subscribe((state, previous) => {
+      for (const side of SIDES) {
+        if (previous.suggestions[side].length > 0 && planeInUse(state, side) !== null && countOn(state, side) > countOn(previous, side)) {
+          queueMicrotask(() => {
+            this.#findTwins(side);
+            this.#removeTaken(side);
           });
         }
       }
@@ -118,6 +133,19 @@ export class Planes {
     if (waiting?.of === of && waiting.choice === choice && waiting.answer === 'awaited') {
       dispatch({ kind: 'plane', side: at, plane: { of, choice, answer } });
       this.#findTwins(at);
+    }
+  }
+
+  /** Removes the suggested places at which one of two pairs that go together has its point already. */
+  #removeTaken(side: Side): void {
+    const { state, dispatch } = this.#store;
+    const suggestions = state.suggestions[side].filter(({ point }) => {
+      const pair = planeInUse(state, side) === null ? null : (this.#mirror(side, point)?.pair ?? null);
+      const there = pair === null ? null : twinOf(state, pair);
+      return (there?.points[side] ?? null) === null;
+    });
+    if (suggestions.length < state.suggestions[side].length) {
+      dispatch({ kind: 'suggested', side, suggestions });
     }
   }
 

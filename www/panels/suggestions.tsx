@@ -3,6 +3,7 @@ import type { VNode } from 'preact';
 import type { Side } from '../landmarks.ts';
 import { otherSide, SIDES } from '../landmarks.ts';
 import { suggestionName } from '../messages.ts';
+import { planeInUse } from '../store/across.ts';
 import type { PartProps } from './actions.ts';
 import { SIDE_NAMES } from './names.ts';
 
@@ -29,6 +30,7 @@ function Ask({ state, actions, side }: { readonly side: Side } & Props): VNode {
 function Found({ state, actions, side }: { readonly side: Side } & Props): VNode | null {
   const suggestions = state.suggestions[side];
   const [name, other] = [SIDE_NAMES[side], SIDE_NAMES[otherSide(side)]];
+  const isTogether = planeInUse(state, side) !== null;
   if (suggestions.length === 0) {
     return null;
   }
@@ -39,7 +41,7 @@ function Found({ state, actions, side }: { readonly side: Side } & Props): VNode
       </p>
       <ol>
         {suggestions.map((suggestion) => {
-          const words = suggestionName(suggestion, suggestions);
+          const words = suggestionName(suggestion, suggestions, isTogether);
           return (
             <li key={suggestion.point}>
               <button

@@ -13,10 +13,10 @@ export class Rings {
     view.append(this.#layer);
   }
 
-  /** Shows these suggestions; `take` is called with the one that is taken. */
-  show(suggestions: readonly Suggestion[], take: (suggestion: Suggestion) => void): void {
+  /** Shows these suggestions, of which left and right may be taken together; `take` is called with the one that is taken. */
+  show(suggestions: readonly Suggestion[], isTogether: boolean, take: (suggestion: Suggestion) => void): void {
     this.#rings = suggestions.map((suggestion) => {
-      const name = suggestionName(suggestion, suggestions);
+      const name = suggestionName(suggestion, suggestions, isTogether);
       const ring = make('button', { type: 'button', title: name, 'aria-label': `Take ${name}` }, suggestion.letter);
       ring.addEventListener('click', () => {
         take(suggestion);

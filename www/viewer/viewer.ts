@@ -358,7 +358,10 @@ export class Views {
         shownGhosts(previous) !== shownGhosts(state) ||
         previous.ui.selected !== state.ui.selected ||
         previous.ui.hovered !== state.ui.hovered,
-      suggestions: isOtherMesh || previous.suggestions !== state.suggestions,
+      suggestions:
+        isOtherMesh ||
+        previous.suggestions !== state.suggestions ||
+        SIDES.some((side) => planeInUse(previous, side) !== planeInUse(state, side)),
       mirrors: isOtherMesh || previous.leftRight !== state.leftRight,
       cameras: previous?.ui.cameras !== state.ui.cameras,
       preview: isOtherMesh || shownPreview(previous) !== shownPreview(state),
@@ -527,7 +530,7 @@ export class Views {
     for (const side of SIDES) {
       const suggestions = this.#state.meshes[side] === null ? [] : this.#state.suggestions[side];
       viewer.setSuggestions(side, JSON.stringify(suggestions.map((suggestion) => suggestion.point)));
-      this.#rings[side].show(suggestions, ({ point }) => {
+      this.#rings[side].show(suggestions, planeInUse(this.#state, side) !== null, ({ point }) => {
         this.#listener.dispatch({ kind: 'point-picked', side, point });
       });
     }
