@@ -180,6 +180,8 @@ describe('what is kept', () => {
   test('is nothing while nobody did anything: a demo that came by itself, a theme', async () => {
     const tab = await new Tab().visit();
     tab.store.dispatch(...CAT_AND_LION, { kind: 'demo', demo: DEMO });
+    // The page begins the history a moment after the demo has come.
+    await new Promise((resolve) => setTimeout(resolve, 20));
     tab.does({ kind: 'history-begun' }, { kind: 'ui', ui: { step: 'map' } });
     await tab.close();
     expect(await records()).toEqual([]);

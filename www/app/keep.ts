@@ -390,8 +390,9 @@ export class Keeper {
       return;
     }
     this.#schedule();
-    // Writing a mesh takes long, so that it is not done before the page has closed unless it begins now.
-    if (state.meshes !== previous.meshes) {
+    // Writing a mesh takes long, so that it is not done before the page has closed unless it begins now. A demo can wait: where it came by
+    // itself, it will not be written at all.
+    if (state.meshes !== previous.meshes && state.demo === null) {
       void this.flush();
     }
   }
