@@ -132,12 +132,17 @@ test('the menu of what the surfaces show stays inside the window', async ({ page
   }
 });
 
-test('a phone shows the whole hint', async ({ page }) => {
+test('a phone shows the whole hint and the whole main action', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 780 });
   await openDemo(page);
   await expect(page.locator('#hint')).toContainText('make the map');
   const lacks = await page.locator('#hint').evaluate((hint) => [hint.scrollWidth - hint.clientWidth, hint.scrollHeight - hint.clientHeight]);
   expect(lacks).toEqual([0, 0]);
+  await page.setViewportSize({ width: 360, height: 640 });
+  for (const step of ['meshes', 'landmarks', 'map', 'use', 'method'] as const) {
+    await openStep(page, step);
+    expect(await page.locator('#run > span').evaluate((words) => words.scrollWidth - words.clientWidth), step).toBe(0);
+  }
 });
 
 test('what a box or a dialog holds ends before its border', async ({ page }) => {
