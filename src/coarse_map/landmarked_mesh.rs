@@ -2,7 +2,6 @@
 
 use crate::landmarks::LandmarkId;
 use crate::layout::PatchedMesh;
-use crate::math::scalar::min;
 use crate::mesh::face_weights::{FaceWeight, FaceWeights};
 use crate::mesh::{FaceId, HalfedgeId, MeshError, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
 use crate::surface_map::parametrisation::embedding::{Embedding, Parametrised};
@@ -46,9 +45,10 @@ const LEAST_DEGREE: usize = 6;
 /// its own. With 42 vertices for 16 landmarks and 162 for 60, less than 3 for each, no layout had a map. Chosen by hand above that.
 pub const LEAST_PER_LANDMARK: usize = 18;
 
-/// A neighbour stands for a landmark on coarse levels where it is nearer than this, in units of the shortest edge around the landmark on the
-/// input mesh. On clicked landmarks of two horses the largest density of a piece fell from 7e4 to 5e2 with it; with .02 and .05 to 5e3 and 9e2.
-const NEAR: f64 = 0.1;
+/// A neighbour stands for a landmark in a face on coarse levels where it is nearer than this, in mean distances of the landmark's other
+/// neighbours. On clicked landmarks of two horses the largest density of a piece fell from 7e4 to 9e2 with it; with .06 and .15 to 3e3 and 6e3,
+/// and E and processor time were higher.
+const NEAR: f64 = 0.02;
 
 /// Least cosine between normals that count as parallel: those of needles are known to fewer digits.
 const PARALLEL: f64 = 1.0 - 1e-6;
@@ -62,7 +62,7 @@ impl LandmarkedMesh {
         let refined =
             RefinedMesh::unrefined(mesh).with_vertices(mesh, LEAST_PER_LANDMARK * landmarks.len())?;
         let refined = refined.with_degrees(mesh, landmarks.iter().copied(), LEAST_DEGREE)?;
-        let stand_ins = stand_ins(mesh, &refined.mesh, landmarks);
+        let stand_ins = stand_ins(&refined.mesh, landmarks);
         Ok(Self { refined, landmarks: landmarks.iter().copied().collect(), stand_ins, weights: None })
     }
 
@@ -104,7 +104,7 @@ impl LandmarkedMesh {
         points: &[SurfacePoint],
     ) -> Result<(Self, Vec<VertexId>), MeshError> {
         let (refined, vertices) = self.refined.with_points(input, points)?;
-        Ok((self.refined_to(input, refined), vertices))
+        Ok((self.refined_to(refined), vertices))
     }
 
     /// The same mesh, refined around further vertices of it so that a layout has room there.
@@ -116,17 +116,17 @@ impl LandmarkedMesh {
         input: &SurfaceMesh,
         vertices: &[VertexId],
     ) -> Result<Self, MeshError> {
-        Ok(self.refined_to(input, self.refined.with_degrees(input, vertices.iter().copied(), LEAST_DEGREE)?))
+        Ok(self.refined_to(self.refined.with_degrees(input, vertices.iter().copied(), LEAST_DEGREE)?))
     }
 
     /// The same mesh, refined further.
-    fn refined_to(&self, input: &SurfaceMesh, refined: RefinedMesh) -> Self {
+    fn refined_to(&self, refined: RefinedMesh) -> Self {
         let weights = self.weights.as_ref().map(|known| Weights::new(known.of_input.clone(), &refined));
-        let stand_ins = stand_ins(input, &refined.mesh, &self.landmarks.raw);
+        let stand_ins = stand_ins(&refined.mesh, &self.landmarks.raw);
         Self { refined, landmarks: self.landmarks.clone(), stand_ins, weights }
     }
 
-    /// The vertex that stands for each landmark on coarse levels: the landmark's own, or a neighbour that is very near.
+    /// The vertex that stands for each landmark on coarse levels: the landmark's own, or a neighbour that is much nearer than all others.
     ///
     /// A landmark in a face that is very near an edge makes a needle there, whose long side is straight, while its image has to bend around the
     /// cone. So the landmark's foot on the edge is the cone as long as the needle is much smaller than a level's triangles.
@@ -148,15 +148,11 @@ impl LandmarkedMesh {
 }
 
 /// The vertex that stands for each landmark on coarse levels. Landmarks whose surroundings have another landmark in them stand for themselves.
-fn stand_ins(
-    input: &SurfaceMesh,
-    refined: &SurfaceMesh,
-    landmarks: &[VertexId],
-) -> TiVec<LandmarkId, VertexId> {
+fn stand_ins(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> TiVec<LandmarkId, VertexId> {
     let mut taken: FxHashSet<VertexId> = landmarks.iter().copied().collect();
-    let around = |v: VertexId| refined.star(v).map(|h| refined.head(h));
+    let around = |v: VertexId| mesh.star(v).map(|h| mesh.head(h));
     let mut stand_in = |&v: &VertexId| {
-        let Some(near) = near_neighbour(input, refined, v) else { return v };
+        let Some(near) = near_neighbour(mesh, v) else { return v };
         let of_near: FxHashSet<VertexId> = around(near).collect();
         // The link condition of the collapse into the neighbour.
         let common = around(v).filter(|w| of_near.contains(w)).count();
@@ -166,17 +162,12 @@ fn stand_ins(
     landmarks.iter().map(&mut stand_in).collect()
 }
 
-/// The nearest neighbour of a vertex inside a face or a plane of the input mesh, where it is much nearer than the edges around the vertex there
-/// are long.
-fn near_neighbour(input: &SurfaceMesh, refined: &SurfaceMesh, v: VertexId) -> Option<VertexId> {
-    if v.index() >= input.vertex_count() || !is_in_a_plane(input, v) {
-        return None;
-    }
-    let place = |v: VertexId| refined.positions()[v];
-    let across = |h: HalfedgeId| place(input.head(h)).distance(place(input.head(h.next())));
-    let shortest = input.star(v).map(across).fold(f64::INFINITY, min);
-    let nearest = refined.star(v).min_by(|a, b| refined.length(*a).total_cmp(&refined.length(*b)))?;
-    (refined.length(nearest) < NEAR * shortest).then(|| refined.head(nearest))
+/// The neighbour of a vertex inside a plane that is much nearer than all others.
+fn near_neighbour(mesh: &SurfaceMesh, v: VertexId) -> Option<VertexId> {
+    let nearest = mesh.star(v).min_by(|a, b| mesh.length(*a).total_cmp(&mesh.length(*b)))?;
+    let others: Vec<f64> = mesh.star(v).filter(|h| *h != nearest).map(|h| mesh.length(h)).collect();
+    let mean = others.iter().sum::<f64>() / others.len() as f64;
+    (mesh.length(nearest) < NEAR * mean && is_in_a_plane(mesh, v)).then(|| mesh.head(nearest))
 }
 
 /// Whether all faces around a vertex lie in one plane, as those into which a landmark in a face divides it.

@@ -161,7 +161,7 @@ impl fmt::Display for Warning {
             }
             Self::FinishedEarly { energy } => write!(
                 f,
-                "Finished early on request, at energy {energy:.3} (4 is an isometry): the map is whole and certified, but a \
+                "Finished early on request, at energy {energy:.3} (4 is the least): the map is whole and certified, but a \
                  full run would lower its distortion."
             ),
             Self::RivalClass { ratio } => write!(

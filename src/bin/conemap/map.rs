@@ -216,7 +216,7 @@ pub fn tell(result: &MapResult) {
     }
     let d = &report.distortion;
     let (energy, mean) = (d.energy, d.mean);
-    say(format_args!("energy {energy:.3} (4 is an isometry), mean distortion {mean:.3} (1 is an isometry)"));
+    say(format_args!("energy {energy:.3} (4 is the least), mean distortion {mean:.3} (1 is an isometry)"));
     if let Some(truth) = &report.ground_truth {
         let [mean, most] = [truth.mean, truth.p95].map(|distance| 100.0 * distance);
         say(format_args!(
