@@ -17,7 +17,10 @@ impl ParametrisedLevel<'_> {
     /// [`NoPlace`] where the star of the end has no kernel then; the start is removed again.
     pub(super) fn hand_over(&mut self, h: HalfedgeId) -> Result<VertexId, NoPlace> {
         let (t, heir, former) = (self.mesh.twin(h), self.mesh.tail(h), self.mesh.head(h));
-        let Some(landmark) = self.landmark_at(former) else { return Err(NoPlace) };
+        let Some(landmark) = self.landmark_at(former) else {
+            self.collapse(h);
+            return Err(NoPlace);
+        };
         let anchor = self.anchor_of_heir(landmark, h);
         // The cone's holonomy was around the end; the way around the end becomes that across the edge.
         let mut motion = Rigid2::IDENTITY;
