@@ -122,16 +122,30 @@ impl LandmarkedMesh {
     /// The same mesh, refined further.
     fn refined_to(&self, refined: RefinedMesh) -> Self {
         let weights = self.weights.as_ref().map(|known| Weights::new(known.of_input.clone(), &refined));
-        let stand_ins = stand_ins(&refined.mesh, &self.landmarks.raw);
-        Self { refined, landmarks: self.landmarks.clone(), stand_ins, weights }
+        let both = self.landmarks.iter().zip(&self.stand_ins);
+        let kept = both.map(|(&v, &w)| if may_go_into(&refined.mesh, v, w) { w } else { v });
+        let (landmarks, stand_ins) = (self.landmarks.clone(), kept.collect());
+        Self { refined, landmarks, stand_ins, weights }
     }
 
-    /// The vertex that stands for each landmark on coarse levels: the landmark's own, or a neighbour that is much nearer than all others.
+    /// The vertex that stands for each landmark on coarse levels: the landmark's own, or a neighbour that is much nearer than the others
+    /// are on the mean.
     ///
     /// A landmark in a face that is very near an edge makes a needle there, whose long side is straight, while its image has to bend around the
     /// cone. So the landmark's foot on the edge is the cone as long as the needle is much smaller than a level's triangles.
-    pub fn stand_ins(&self) -> &TiSlice<LandmarkId, VertexId> {
+    pub(super) fn stand_ins(&self) -> &TiSlice<LandmarkId, VertexId> {
         &self.stand_ins
+    }
+
+    /// Whether a neighbour stands for some landmark on coarse levels.
+    pub fn has_stand_ins(&self) -> bool {
+        self.stand_ins != self.landmarks
+    }
+
+    /// The same mesh, in which every landmark stands for itself on coarse levels.
+    #[must_use]
+    pub fn without_stand_ins(self) -> Self {
+        Self { stand_ins: self.landmarks.clone(), ..self }
     }
 
     /// Makes a vertex a landmark, after those that there are.
@@ -153,16 +167,21 @@ fn stand_ins(mesh: &SurfaceMesh, landmarks: &[VertexId]) -> TiVec<LandmarkId, Ve
     let around = |v: VertexId| mesh.star(v).map(|h| mesh.head(h));
     let mut stand_in = |&v: &VertexId| {
         let Some(near) = near_neighbour(mesh, v) else { return v };
-        let of_near: FxHashSet<VertexId> = around(near).collect();
-        // The link condition of the collapse into the neighbour.
-        let common = around(v).filter(|w| of_near.contains(w)).count();
         let is_free = |w: VertexId| w == v || !taken.contains(&w);
-        if common == 2 && around(v).chain(around(near)).all(is_free) && taken.insert(near) { near } else { v }
+        let is_alone = around(v).chain(around(near)).all(is_free);
+        if is_alone && may_go_into(mesh, v, near) && taken.insert(near) { near } else { v }
     };
     landmarks.iter().map(&mut stand_in).collect()
 }
 
-/// The neighbour of a vertex inside a plane that is much nearer than all others.
+/// Whether two vertices are neighbours of which the first may be collapsed into the second (the link condition).
+fn may_go_into(mesh: &SurfaceMesh, v: VertexId, into: VertexId) -> bool {
+    let around = |v: VertexId| mesh.star(v).map(|h| mesh.head(h));
+    let beside: FxHashSet<VertexId> = around(into).collect();
+    beside.contains(&v) && around(v).filter(|w| beside.contains(w)).count() == 2
+}
+
+/// The neighbour of a vertex inside a plane that is much nearer than the others are on the mean.
 fn near_neighbour(mesh: &SurfaceMesh, v: VertexId) -> Option<VertexId> {
     let nearest = mesh.star(v).min_by(|a, b| mesh.length(*a).total_cmp(&mesh.length(*b)))?;
     let others: Vec<f64> = mesh.star(v).filter(|h| *h != nearest).map(|h| mesh.length(h)).collect();

@@ -5,6 +5,7 @@
 //! level, while the energy of the map itself is lowered on every level. So the full meshes start near the optimum, and are
 //! never cut along the drawing.
 
+use super::landmarked_mesh::LandmarkedMesh;
 use super::layout_points::{PatchedParametrisation, without_layout_points};
 use super::mesh_with_coarse::MeshWithCoarse;
 use super::options::MultilevelOptions;
@@ -168,7 +169,8 @@ impl CoarseMap<'_> {
             locations.by_vertex.iter().map(|at| barycentric(source, target, at)).collect();
         let [source, target] = present;
         let weights = [source.weights, target.weights];
-        Some(LevelImages { levels: [source.level, target.level], weights, target_from_source })
+        let landmarks = [source.landmarks, target.landmarks];
+        Some(LevelImages { levels: [source.level, target.level], landmarks, weights, target_from_source })
     }
 
     /// The present level of a mesh with the images of its vertices; `None` where a vertex cannot be located.
@@ -645,6 +647,8 @@ pub(super) struct PlacedLevel<'a> {
 pub struct LevelImages {
     /// Source and target level.
     pub levels: [Level; 2],
+    /// The vertex of each landmark on each level: the user's, then those of own cones.
+    landmarks: [TiVec<LandmarkId, VertexId>; 2],
     /// The weights of the faces of each; `None` where all are skin.
     weights: [Option<TiVec<FaceId, FaceWeight>>; 2],
     /// The image of each vertex of the source level on the target level.
@@ -662,12 +666,24 @@ impl LevelImages {
     /// Two levels, all of them skin.
     #[cfg(test)]
     pub(super) fn of_skin(levels: [Level; 2], target_from_source: TiVec<VertexId, SurfacePoint>) -> Self {
-        Self { levels, weights: [None, None], target_from_source }
+        Self { levels, landmarks: Default::default(), weights: [None, None], target_from_source }
+    }
+
+    /// The same levels with these vertices of the full meshes as landmarks.
+    #[cfg(test)]
+    pub(super) fn with_landmarks(self, full: [&[VertexId]; 2]) -> Self {
+        let landmarks = [0, 1].map(|k| self.levels[k].numbers(full[k]).collect());
+        Self { landmarks, ..self }
     }
 
     /// The same levels with other images.
     pub(super) fn with_images(&self, target_from_source: TiVec<VertexId, SurfacePoint>) -> Self {
         Self { target_from_source, ..self.clone() }
+    }
+
+    /// The level's vertices of the landmarks that a full mesh has, which are the first.
+    pub fn landmarks_of(&self, side: MeshSide, full: &LandmarkedMesh) -> &[VertexId] {
+        &self.landmarks[side].raw[..full.landmarks.len()]
     }
 
     /// The weights of the faces of the source and of the target level.

@@ -15,9 +15,9 @@ use crate::surface_map::correspondence::Correspondence;
 use crate::surface_map::flat_layout::FlatLayout;
 use crate::surface_map::measures::distortion::{Distortion, image_distortion, skin_distortion};
 use crate::surface_map::measures::transfer::{CommonMesh, Surface, common_mesh, mapped_mesh, vertex_images};
+use crate::surface_map::overlay::Overlay;
 use crate::surface_map::overlay::base_lines::base_line;
 use crate::surface_map::overlay::location::Locations;
-use crate::surface_map::overlay::{Overlay, OverlayError};
 use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec};
 
@@ -31,9 +31,6 @@ pub(super) struct Outcome<'a> {
     pub(super) locations: &'a Locations,
 }
 
-/// Why a map has no overlay whose parts were left out.
-const NO_TIME: &str = "there was no time left for it";
-
 /// The map as one triangulation of both surfaces, with its measures.
 struct Shown {
     common: CommonMesh,
@@ -44,13 +41,13 @@ struct Shown {
 }
 
 impl Outcome<'_> {
-    /// Makes the result; `missing` are the warnings of parts that failed before.
+    /// Makes the result; `missing` are the warnings of parts that failed before, and that of an overlay that is missing comes after them.
     ///
     /// # Errors
     /// [`Cancelled`].
     pub(super) fn result(
         &self,
-        overlay: Result<Overlay, OverlayError>,
+        overlay: Result<Overlay, Warning>,
         mut missing: Vec<Warning>,
         monitor: &mut dyn Monitor,
     ) -> Result<MapResult, Cancelled> {
@@ -75,15 +72,15 @@ impl Outcome<'_> {
                     Ok(shown) => shown,
                     Err(stop) => {
                         beside.left_out(stop)?;
-                        missing.push(Warning::NoOverlay { reason: NO_TIME.to_owned() });
+                        missing.push(Warning::NoTimeForOverlay);
                         self.shown_at_vertices(&images)
                     }
                 };
                 monitor.step(Step { fraction: 0.95, residual: None })?;
                 shown
             }
-            Err(error) => {
-                missing.push(Warning::NoOverlay { reason: error.to_string() });
+            Err(warning) => {
+                missing.push(warning);
                 self.shown_at_vertices(&images)
             }
         };

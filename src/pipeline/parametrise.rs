@@ -12,6 +12,7 @@ use crate::coarse_map::{LandmarkedMesh, coarse_levels};
 use crate::landmarks::Landmarks;
 use crate::layout::{BaseLayout, LayoutError, MOST_DISTANCES, SearchReport};
 use crate::monitor::{Monitor, Portion, Stage, Step};
+use crate::surface_map::MapError;
 use crate::surface_map::{Certificate, ConeSurface, Embedding, Parametrised, certify};
 use std::sync::Arc;
 
@@ -58,7 +59,7 @@ pub(super) fn parametrise(
     let source = LandmarkedMesh::new(input.source, &source.raw)?.with_weights(on_source);
     monitor.step(Step::default())?;
     let target = LandmarkedMesh::new(input.target, &target.raw)?.with_weights(on_target);
-    let full = [source, target];
+    let mut full = [source, target];
     let most = full.iter().map(|mesh| mesh.refined.mesh.vertex_count()).max().unwrap_or(0);
     let vertices = first_level(input.landmarks.len(), options);
     let mut attempt = Attempt { vertices, search: options.search, scale: Scale::ByArea };
@@ -72,6 +73,12 @@ pub(super) fn parametrise(
             {
                 finer_levels -= 1;
                 attempt = attempt.finer();
+            }
+            // A cone that cannot pass from its stand-in to its landmark stays at the landmark.
+            Err(PipelineError::Map(MapError::NoStart { .. }))
+                if full.iter().any(LandmarkedMesh::has_stand_ins) =>
+            {
+                full = full.map(LandmarkedMesh::without_stand_ins);
             }
             outcome => break outcome?,
         }

@@ -4,11 +4,11 @@ use super::flows::Flows;
 use super::outcome::Outcome;
 use super::parametrise::{Parametrisation, parametrise};
 use super::previews::{InGivenMeshes, Roles};
-use super::{Base, MapInput, MapResult, PipelineError, PipelineOptions};
+use super::{Base, MapInput, MapResult, PipelineError, PipelineOptions, Warning};
 use crate::base_domain::BaseDomain;
 use crate::landmarks::Landmarks;
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Cancelled, Monitor, OrStop, Stage, Step};
+use crate::monitor::{Beside, Cancelled, Monitor, OrStop, Stage, Step};
 use crate::surface_map::overlay::location::{Locations, locate};
 use crate::surface_map::overlay::{Overlay, OverlayError, overlay};
 use crate::surface_map::{ConeSurface, Parametrised};
@@ -54,7 +54,11 @@ pub(super) fn composed(
     monitor.step(Step::default())?;
     let locations = locate(source, target, &map.surface, monitor)?;
     monitor.step(Step { fraction: 0.5, residual: None })?;
-    let overlay = overlaid([source, target], &map.surface, &locations, monitor)?;
+    let beside = &mut Beside::new(monitor);
+    let overlay = match overlaid([source, target], &map.surface, &locations, beside) {
+        Ok(overlay) => overlay.map_err(|error| Warning::NoOverlay { reason: error.to_string() }),
+        Err(stop) => beside.left_out(stop).map(|()| Err(Warning::NoTimeForOverlay))?,
+    };
     monitor.step(Step { fraction: 1.0, residual: None })?;
     let base = in_input_coordinates(&map.layout.base, input);
     let (flows, missing) = Flows::beside_a_map(input, &base, options, monitor)?;
@@ -124,7 +128,6 @@ mod tests {
     use super::*;
     use crate::demo;
     use crate::monitor::Silent;
-    use crate::pipeline::Warning;
 
     #[test]
     fn a_map_stands_where_its_overlay_is_lost() {
@@ -141,7 +144,8 @@ mod tests {
         let base = in_input_coordinates(&map.layout.base, input);
         let (flows, _) = Flows::beside_a_map(input, &base, &options, &mut Silent).unwrap();
         let outcome = Outcome { input, map: &map, base: &base, flows: &flows, locations: &locations };
-        let bare = outcome.result(Err(OverlayError::Lost { edge: [3, 4] }), Vec::new(), &mut Silent).unwrap();
+        let lost = Warning::NoOverlay { reason: OverlayError::Lost { edge: [3, 4] }.to_string() };
+        let bare = outcome.result(Err(lost), Vec::new(), &mut Silent).unwrap();
 
         let [Warning::NoOverlay { reason }] = &bare.report.warnings[..] else {
             panic!("{:?}", bare.report.warnings)

@@ -73,6 +73,8 @@ pub enum Warning {
         /// The error of the overlay.
         reason: String,
     },
+    /// There was no time for the overlay: the map is shown and measured at the source's vertices only.
+    NoTimeForOverlay,
     /// The method guarantees no bijection.
     NoBijection,
     /// Rounding kept the map from being one-to-one everywhere (the method of Tutte).
@@ -119,7 +121,7 @@ impl Warning {
             Self::LongPath { .. } => "long_path",
             Self::Distorted { .. } => "distorted",
             Self::NoConeMetric { .. } | Self::NoTimeForConeMetric { .. } => "no_cone_metric",
-            Self::NoOverlay { .. } => "no_overlay",
+            Self::NoOverlay { .. } | Self::NoTimeForOverlay => "no_overlay",
             Self::NoBijection => "no_bijection",
             Self::NotCertified { .. } => "not_certified",
             Self::InvertedPatches { .. } => "inverted_patches",
@@ -192,19 +194,19 @@ impl fmt::Display for Warning {
             }
             Self::NoTimeForConeMetric { side } => {
                 let missing = match side {
-                    MeshSide::Source => "its numbers are",
-                    MeshSide::Target => "the texture of the target is",
+                    MeshSide::Source => "the cone metric of the source, so its numbers are",
+                    MeshSide::Target => "the cone metric of the target and its texture, so the texture is",
                 };
-                write!(
-                    f,
-                    "The map is whole and certified, but there was no time for the cone metric of the {side}, so {missing} missing: \
-                     give more time."
-                )
+                write!(f, "The map is whole and certified, but there was no time for {missing} missing: give more time.")
             }
             Self::NoOverlay { reason } => write!(
                 f,
                 "The map is whole and certified, but both meshes could not be laid over each other, so it is shown and measured \
                  at the vertices of the source only: {reason}."
+            ),
+            Self::NoTimeForOverlay => f.write_str(
+                "The map is whole and certified, but there was no time to lay both meshes over each other, so it is shown and \
+                 measured at the vertices of the source only: give more time.",
             ),
             Self::NoBijection => {
                 f.write_str("This method does not guarantee a bijection; the relaxed map does.")
@@ -260,6 +262,7 @@ impl From<Warning> for WarningReport {
             Warning::NoCorrespondingBorders
             | Warning::LandmarkFile { .. }
             | Warning::NoOverlay { .. }
+            | Warning::NoTimeForOverlay
             | Warning::NoBijection
             | Warning::NotCertified { .. }
             | Warning::InvertedPatches { .. } => {}

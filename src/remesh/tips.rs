@@ -23,8 +23,8 @@ const MARGIN: f64 = 0.35;
 /// The vertices at tips of a surface, as they are seen with edges of a length: those where all of the surface around lies on one
 /// side, more than for any vertex near.
 ///
-/// On a surface that is much finer than the new edges only those vertices are judged whose centre is nearly a tip: the others cannot be
-/// tips, since the surface around them is nearly the centre's.
+/// On a surface that is much finer than the new edges only those vertices are judged whose centre is nearly a tip: the surface around
+/// the others is nearly the centre's, and on the bodies that were tried ([`MARGIN`]) they are no tips.
 pub(super) fn tips(
     surface: &SurfaceMesh,
     length: f64,

@@ -8,7 +8,7 @@ use super::prediction::predicted;
 use crate::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use crate::coarse_map::multilevel::LevelImages;
 use crate::coarse_map::{LEAST_PER_LANDMARK, LandmarkedMesh, MultilevelOptions, coarse_levels};
-use crate::landmarks::LandmarkId;
+use crate::landmarks::{LandmarkId, MeshSide};
 use crate::layout::SearchOptions;
 use crate::mesh::closest_point::closest_point;
 use crate::mesh::insertion::insert;
@@ -200,7 +200,8 @@ fn coarse(
     let Some(mut map) = chosen.map(|chosen| chosen.map) else { return Ok(None) };
     let finished = unless_stopped(map.finish(multilevel, &mut Portion::new(monitor, 0.7, 1.0)))?;
     let Some(images) = finished.and_then(|()| map.images()) else { return Ok(None) };
-    let landmarks = [0, 1].map(|k| images.levels[k].numbers(&full[k].landmarks).collect());
+    let landmarks =
+        MeshSide::BOTH.map(|side| images.landmarks_of(side, &full[side]).iter().copied().collect());
     Ok(Some(Seen { images, landmarks }))
 }
 

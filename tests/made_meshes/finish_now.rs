@@ -207,5 +207,7 @@ fn where_there_is_no_time_parts_beside_the_map_are_left_out() {
     assert_eq!(kinds(Stage::Remeshing), [""; 0]);
     assert_eq!(kinds(Stage::Transfer), ["no_overlay"]);
     assert_eq!(kinds(Stage::TargetConeMetric), ["no_cone_metric", "no_overlay"]);
-    assert_eq!(kinds(Stage::SourceConeMetric), ["no_cone_metric", "no_cone_metric", "no_overlay"]);
+    for from in [Stage::SourceConeMetric, Stage::Composition] {
+        assert_eq!(kinds(from), ["no_cone_metric", "no_cone_metric", "no_overlay"]);
+    }
 }

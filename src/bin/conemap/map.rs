@@ -56,7 +56,9 @@ const NO_MAP_FILE: &str = "a mesh was repaired, and a map file tells of meshes a
 fn write_map(arguments: &MapArguments, job: &Job, result: &MapResult) -> Result<(), Failure> {
     let Some(path) = &arguments.map else { return Ok(()) };
     let map = job.map_file(result, &arguments.choices);
-    let map = map.ok_or("--map: this map has no overlay, and so no pieces for a map file")?;
+    let map = map.ok_or(
+        "--map: this map has no overlay, and so no pieces for a map file; the warnings in the report say why",
+    )?;
     outputs::write(path, &job.taken(&map).output(OutputKind::Map)?)
 }
 

@@ -108,7 +108,7 @@ fn ends(
     let level = &present.levels[side];
     let weights = &present.weights()[side];
     let root = level.mesh.area().sqrt();
-    let landmarks: Vec<VertexId> = level.numbers(full[side].stand_ins()).collect();
+    let landmarks = present.landmarks_of(side, &full[side]);
     let distances = ManyDistances::on(&level.mesh);
     let mut found = Vec::new();
     for vertex in tips(&level.mesh, APART * root, &mut Portion::new(monitor, 0.0, 0.0))? {
@@ -144,7 +144,8 @@ mod tests {
             let full: &LandmarkedMesh = &full[k];
             Level::coarse(&full.refined.mesh, &full.landmarks.raw, 600, &mut Silent).unwrap()
         };
-        let present = LevelImages::of_skin([level(0), level(1)], TiVec::new());
+        let landmarks = full.each_ref().map(|full| full.landmarks.raw.as_slice());
+        let present = LevelImages::of_skin([level(0), level(1)], TiVec::new()).with_landmarks(landmarks);
         (full, present)
     }
 

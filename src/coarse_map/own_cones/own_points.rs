@@ -56,7 +56,7 @@ pub(super) fn pairs(
     let [source, target] = &images.levels;
     let weights = images.weights();
     let mesh = &source.mesh;
-    let user: Vec<VertexId> = source.numbers(full[0].stand_ins()).collect();
+    let user = images.landmarks_of(MeshSide::Source, &full[0]);
     let mut free = vec![true; mesh.vertex_count()];
     user.iter().for_each(|&v| free[v.index()] = false);
     let before: Vec<VertexId> = before.iter().filter_map(|v| source.vertices.binary_search(v).ok()).collect();
@@ -70,9 +70,9 @@ pub(super) fn pairs(
     mesh.vertices().filter(|&v| source.vertices[v].index() >= known).for_each(|v| free[v.index()] = false);
     let may = |v: VertexId| free[v.index()] && (choice.may)(v);
     let first = Spread { count: choice.count, least_distance: LEAST_DISTANCE };
-    let mut chosen = farthest_points(mesh, distances(mesh, &user), first, may, monitor)?;
+    let mut chosen = farthest_points(mesh, distances(mesh, user), first, may, monitor)?;
     if choice.most > chosen.len() {
-        let from_all = distances(mesh, &[&user[..], &chosen[..]].concat());
+        let from_all = distances(mesh, &[user, &chosen[..]].concat());
         let further = Spread { count: choice.most - chosen.len(), least_distance: choice.gap };
         chosen.extend(farthest_points(mesh, from_all, further, may, monitor)?);
     }
@@ -209,7 +209,8 @@ mod tests {
         let landmarks = [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y].map(beside);
         let full = [0, 1].map(|_| LandmarkedMesh::new(&mesh, &landmarks).unwrap());
         let surface = &full[0].refined.mesh;
-        let images = LevelImages::of_itself(&Level::coarse(surface, &landmarks, 600, &mut Silent).unwrap());
+        let images = LevelImages::of_itself(&Level::coarse(surface, &landmarks, 600, &mut Silent).unwrap())
+            .with_landmarks([&landmarks, &landmarks]);
         let mut before: Vec<VertexId> = Vec::new();
         for round in 0..4 {
             let choice = PointChoice { count: 12, most: 12, gap: 1.0, may: &|_| true };

@@ -8,6 +8,7 @@ use super::{OwnConeInput, OwnConeOptions, OwnCones, OwnPair, Owners, Start};
 use crate::coarse_map::class_search::{ClassChoice, ClassSearchOptions, choose_class};
 use crate::coarse_map::multilevel::{CoarseMap, LevelImages};
 use crate::coarse_map::{LandmarkedMesh, MultilevelOptions, mesh_with_coarse};
+use crate::landmarks::MeshSide;
 use crate::layout::SearchOptions;
 use crate::mesh::{SurfacePoint, VertexId};
 use crate::monitor::{Cancelled, Monitor, Portion, unless_stopped};
@@ -368,10 +369,8 @@ fn guesses(
     monitor: &mut dyn Monitor,
 ) -> Result<TiVec<VertexId, Guess>, Cancelled> {
     let [source, target] = &present.levels;
-    let landmarks = [(source, &full[0]), (target, &full[1])]
-        .map(|(level, full)| level.numbers(full.stand_ins()).collect());
-    let [on_source, on_target]: [Vec<VertexId>; 2] = landmarks;
-    distance_guess::guess([&source.mesh, &target.mesh], [&on_source, &on_target], monitor)
+    let landmarks = MeshSide::BOTH.map(|side| present.landmarks_of(side, &full[side]));
+    distance_guess::guess([&source.mesh, &target.mesh], landmarks, monitor)
 }
 
 /// The chosen map, relaxed.

@@ -257,7 +257,7 @@ impl<'a> ParametrisedLevel<'a> {
     }
 
     /// Restores the vertex that was removed last, without a place yet.
-    fn restore(&mut self) -> Option<VertexId> {
+    fn restore(&mut self) -> Option<Restored> {
         let collapse = self.mesh.restore()?;
         let h = collapse.halfedge;
         let t = self.mesh.twin(h);
@@ -287,15 +287,24 @@ impl<'a> ParametrisedLevel<'a> {
         }
         self.transitions[h] = motion;
         self.transitions[t] = motion.inverse();
-        if self.is_landmark[end] {
-            self.anchor_again(collapse.removed, h);
+        let landmark = if self.is_landmark[end] { self.landmark_at(collapse.removed) } else { None };
+        let moved = landmark.map(|landmark| (landmark, self.anchors[landmark]));
+        if let Some(landmark) = landmark {
+            self.anchor_again(landmark, h);
         }
-        Some(collapse.removed)
+        Some(Restored { vertex: collapse.removed, moved })
+    }
+
+    /// Removes again a vertex that was restored without a place.
+    fn remove_again(&mut self, restored: Restored) {
+        self.collapse(self.mesh.outgoing(restored.vertex));
+        if let Some((landmark, anchor)) = restored.moved {
+            self.anchors[landmark] = anchor;
+        }
     }
 
     /// An anchor that was handed to the restored vertex goes back to its landmark, the end of `h`.
-    fn anchor_again(&mut self, restored: VertexId, h: HalfedgeId) {
-        let Some(landmark) = self.landmark_at(restored) else { return };
+    fn anchor_again(&mut self, landmark: LandmarkId, h: HalfedgeId) {
         let mut anchor = self.anchors[landmark];
         let mut angle = self.angle(landmark, &anchor);
         let mut g = anchor.corner;
@@ -316,10 +325,11 @@ impl<'a> ParametrisedLevel<'a> {
     /// # Errors
     /// [`NoPlace`] where its star has no kernel; the vertex is removed again.
     pub fn refine(&mut self, placing: Placing) -> Option<Result<VertexId, NoPlace>> {
-        let v = self.restore()?;
+        let restored = self.restore()?;
+        let v = restored.vertex;
         let h = self.mesh.outgoing(v);
         if self.is_heir[v] {
-            return Some(self.hand_over(h));
+            return Some(self.hand_over(restored));
         }
         self.look_around(h);
         let low = self.place(v);
@@ -328,7 +338,7 @@ impl<'a> ParametrisedLevel<'a> {
             Placing::SliversAsMapped => self.place_as_mapped(v, low).or(low),
         };
         let Some(place) = place else {
-            self.collapse(h);
+            self.remove_again(restored);
             return Some(Err(NoPlace));
         };
         for (g, motion) in self.star.halfedges.iter().zip(&self.star.motions) {
@@ -441,6 +451,13 @@ impl<'a> ParametrisedLevel<'a> {
 }
 
 mod heirs;
+
+/// A vertex that was restored without a place.
+struct Restored {
+    vertex: VertexId,
+    /// The landmark beside it whose anchor was moved, with the anchor as it was.
+    moved: Option<(LandmarkId, Anchor)>,
+}
 
 /// The error where the star of a vertex has no kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

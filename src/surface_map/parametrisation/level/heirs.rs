@@ -1,6 +1,6 @@
 //! Landmarks that pass from a vertex of coarse levels to its neighbour at full resolution.
 
-use super::{Anchor, Fan, NoPlace, ParametrisedLevel};
+use super::{Anchor, Fan, NoPlace, ParametrisedLevel, Restored};
 use crate::landmarks::LandmarkId;
 use crate::math::rigid2::{Rigid2, complex_mul};
 use crate::math::scalar::{cos, sin};
@@ -10,19 +10,20 @@ use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 
 impl ParametrisedLevel<'_> {
-    /// Makes the start of `h`, which was restored without a place, the landmark that its end was: it takes the end's place at the cone, and the
-    /// end moves aside.
+    /// Makes a vertex that was restored without a place the landmark that its neighbour was, into which it had been collapsed: it takes the
+    /// neighbour's place at the cone, and the neighbour moves aside.
     ///
     /// # Errors
-    /// [`NoPlace`] where the star of the end has no kernel then; the start is removed again.
-    pub(super) fn hand_over(&mut self, h: HalfedgeId) -> Result<VertexId, NoPlace> {
+    /// [`NoPlace`] where the star of the neighbour has no kernel then; the vertex is removed again.
+    pub(super) fn hand_over(&mut self, restored: Restored) -> Result<VertexId, NoPlace> {
+        let h = self.mesh.outgoing(restored.vertex);
         let (t, heir, former) = (self.mesh.twin(h), self.mesh.tail(h), self.mesh.head(h));
         let Some(landmark) = self.landmark_at(former) else {
-            self.collapse(h);
+            self.remove_again(restored);
             return Err(NoPlace);
         };
         let anchor = self.anchor_of_heir(landmark, h);
-        // The cone's holonomy was around the end; the way around the end becomes that across the edge.
+        // The cone's holonomy was around the neighbour; the way around it becomes that across the edge.
         let mut motion = Rigid2::IDENTITY;
         let mut g = h.next();
         while g != t {
@@ -31,12 +32,12 @@ impl ParametrisedLevel<'_> {
         }
         self.transitions[h] = motion;
         self.transitions[t] = motion.inverse();
-        // In the start's other faces its corner is at the cone already.
+        // In the vertex' other faces its corner is at the cone already.
         self.corners[h] = self.corners[h.next()];
         self.corners[t.next()] = self.corners[t];
         self.look_around(h.next());
         let Some(place) = self.place_aside(h) else {
-            self.collapse(h);
+            self.remove_again(restored);
             return Err(NoPlace);
         };
         for (g, motion) in self.star.halfedges.iter().zip(&self.star.motions) {
