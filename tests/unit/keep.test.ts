@@ -340,6 +340,16 @@ describe('a reload', () => {
     expect(isMapless(twice.state)).toBe(false);
   });
 
+  test('says nothing of a map that a first run had not made yet', async () => {
+    const tab = await catAndLion();
+    tab.does({ kind: 'run-started' });
+    const again = await new Tab(await tab.close()).visit();
+    expect([again.isResumed, isMapless(again.state)]).toEqual([true, false]);
+    again.does({ kind: 'run-started' }, { kind: 'run-done', output: OUTPUT, report: REPORT }, { kind: 'run-started' });
+    const twice = await new Tab(await again.close()).visit();
+    expect(isMapless(twice.state)).toBe(true);
+  });
+
   test('has work that was sent, before anything is done to it', async () => {
     const tab = await new Tab().visit();
     tab.store.dispatch({ kind: 'received', work: workOf(READY), ui: {} });

@@ -102,9 +102,9 @@ function within<T>(milliseconds: number, promised: Promise<T>): Promise<T> {
   });
 }
 
-/** Whether the work has a map that goes with the page, is being given one, or had one before it was brought back. */
+/** Whether the work has a map that goes with the page, or had one before it was brought back. A run that goes on is none yet. */
 function hadMap(state: State): boolean {
-  return isMapless(state) || state.job.kind === 'running' || shownResult(state) !== null;
+  return isMapless(state) || shownResult(state) !== null;
 }
 
 /** Whether two states agree in everything that is kept. */
