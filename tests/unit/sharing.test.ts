@@ -1,11 +1,13 @@
 /** What is on the page is sent and opened on another page, with the core and without a browser. */
 import { afterEach, beforeAll, beforeEach, describe, expect, test, vi } from 'vitest';
 import { Links } from '../../www/app/links.ts';
-import { buildDemo, demoEvents } from '../../www/app/open.ts';
+import { buildDemo, demoEvents, followDemo } from '../../www/app/open.ts';
 import { place, sentWorkOf, withMeshes } from '../../www/app/sent-work.ts';
 import { sharedLink } from '../../www/app/sharing.ts';
 import type { Link } from '../../www/send/link.ts';
-import { readLink } from '../../www/send/link.ts';
+import { readLink, writeLink } from '../../www/send/link.ts';
+import { ReaderBroken } from '../../www/reading/asked-worker.ts';
+import type { FileReader } from '../../www/reading/reader.ts';
 import type { NamedBytes } from '../../www/named-file.ts';
 import type { SentWork } from '../../www/send/schema.ts';
 import { Store } from '../../www/store/store.ts';
@@ -41,8 +43,8 @@ beforeEach(() => {
   });
   vi.stubGlobal('document', { baseURI: BASE });
   vi.stubGlobal('history', {
-    replaceState: () => {
-      address.hash = '';
+    replaceState: (_state: unknown, _title: string, url: string) => {
+      address.hash = new URL(url, BASE).hash;
     },
   });
   vi.stubGlobal('requestAnimationFrame', (callback: () => void) => setTimeout(callback, 0));
@@ -199,6 +201,73 @@ describe('a link', () => {
     expect(address.hash).toBe('#source=a.obj&target=b.obj');
     receiver.dispatch({ kind: 'pair-deleted', id: 1 });
     expect(address.hash).toBe('');
+  });
+
+  test('that no reload can mend leaves the address', async () => {
+    const sender = page(['https://data.example/cat.obj', 'https://data.example/lion.obj']);
+    const answers = { cat: octahedron(1) };
+    vi.stubGlobal('fetch', async (url: string) => Promise.resolve(new Response((url.includes('cat') ? answers.cat : octahedron(2)) as BodyInit)));
+    const store = page();
+    const links = new Links(store, READER);
+    const { link, hash } = await linkOf(sender);
+    const misplaced = link.work?.pairs.map((pair) => ({ ...pair, points: [77, 1] as const })).slice(0, 1) ?? [];
+    const half = writeLink({ ...link, work: link.work && { ...link.work, pairs: misplaced } });
+    const noDemo = writeLink({ ...link, files: [{ kind: 'demo', id: 'none', side: 0 }, null] });
+    const noDemoWork = writeLink({ ...link, demo: 'none', files: [null, null] });
+    for (const [bad, sentence] of [[half, 'The link'], [noDemo, 'no demo'], [noDemoWork, 'no demo'], ['#demo=none', 'no demo']] as const) {
+      store.dispatch({ kind: 'error-closed' });
+      address.hash = bad;
+      await links.follow();
+      links.accept();
+      await until(() => store.state.error?.includes(sentence) === true);
+      await until(() => address.hash === '');
+    }
+    answers.cat = new TextEncoder().encode('none\n');
+    address.hash = hash;
+    await links.follow();
+    links.accept();
+    await until(() => store.state.error?.includes('cat.obj') === true && address.hash === '');
+  });
+
+  test('stays in the address where the program did not load', async () => {
+    const reader: FileReader = {
+      ask: async () => Promise.reject(new ReaderBroken({ code: 'no-core', message: 'offline' })),
+    };
+    const demo = { id: 'sphere-tetrahedron', title: 'Ball', sentence: '' };
+    const store = page();
+    store.dispatch({ kind: 'ready', demos: [demo] });
+    const { link } = await linkOf(page());
+    const links = new Links(store, reader);
+    for (const hash of [
+      writeLink({ ...link, demo: demo.id, files: [null, null] }),
+      writeLink({ ...link, files: [{ kind: 'demo', id: demo.id, side: 0 }, null] }),
+    ]) {
+      store.dispatch({ kind: 'error-closed' });
+      address.hash = hash;
+      await links.follow();
+      await until(() => store.state.error !== null && store.state.job.kind !== 'busy');
+      expect(address.hash).toBe(hash);
+    }
+    store.dispatch({ kind: 'pair-deleted', id: 1 });
+    expect(address.hash).toBe('');
+  });
+
+  test('leaves the address to another one that has come while it was opened', async () => {
+    const demo = { id: 'sphere-tetrahedron', title: 'Ball', sentence: '' };
+    const { hash: waiting, link } = await linkOf(page());
+    const store = new Store();
+    store.dispatch({ kind: 'ready', demos: [demo] });
+    store.subscribe(followDemo);
+    const links = new Links(store, READER);
+    address.hash = writeLink({ ...link, demo: demo.id, files: [null, null], work: link.work && { ...link.work, pairs: [] } });
+    const opening = links.follow();
+    address.hash = waiting;
+    await links.follow();
+    await opening;
+    expect(store.state).toMatchObject({ demo, receiving: { kind: 'files' } });
+    expect(address.hash).toBe(waiting);
+    links.cancel();
+    expect(address.hash).toBe(`#demo=${demo.id}`);
   });
 
   test('of addresses brings meshes and landmarks', async () => {

@@ -2,7 +2,6 @@
  * Keeps the work in the browser's store as it changes, and brings it back: at once after a reload, and when the user asks for it on a new
  * visit.
  */
-import type { Failure } from '../compute/messages.ts';
 import type { NamedBytes } from '../files.ts';
 import { areMarksGood, FileRefused, meshFile } from '../files.ts';
 import type { Choice } from '../keep/choice.ts';
@@ -22,7 +21,7 @@ import { isMapless, shownResult } from '../store/staleness.ts';
 import type { MeshFile, Offer, State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { isSameWork } from '../store/work.ts';
-import { perform } from './task.ts';
+import { isNotThere, perform } from './task.ts';
 
 /** What the keeper needs of the browser and the core. */
 export interface Surroundings {
@@ -44,11 +43,6 @@ export interface Surroundings {
   readonly read: (file: NamedBytes, signal: AbortSignal) => Promise<() => MeshFile>;
   /** How long changes are gathered before they are written, in ms. */
   readonly delay: number;
-}
-
-/** Whether a mesh could not be read because the program did not load: then nothing is wrong with the kept work. */
-function isNotThere(failure: Failure | null | undefined): boolean {
-  return failure?.code === 'no-core';
 }
 
 /** The browser that the page is in. */
@@ -304,16 +298,10 @@ export class Keeper {
 
   /** Puts a session's work onto the page; returns `false` where that fails, and shows a sentence where the work cannot be read. */
   async #restore(record: SessionRecord): Promise<boolean> {
-    // `program` becomes true where reading failed because the program did not load.
-    const wants = { program: false };
     const outcome = await perform(
       this.#store,
       SENTENCES.bringingBack,
-      (signal) =>
-        this.#read(meshesOf(record), signal).catch((thrown: unknown) => {
-          wants.program = thrown instanceof FileRefused && isNotThere(thrown.failure);
-          throw thrown;
-        }),
+      (signal) => this.#read(meshesOf(record), signal),
       (read) => {
         const files = this.#taken(read);
         try {
@@ -329,7 +317,7 @@ export class Keeper {
         }
       },
     );
-    if (outcome === 'failed' && !wants.program) {
+    if (outcome === 'failed') {
       await this.#quietly((database) => database.decline([record.id]));
     }
     return outcome === 'done';

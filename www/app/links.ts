@@ -11,7 +11,7 @@ import type { FileReader } from '../reading/reader.ts';
 import type { Event } from '../store/events.ts';
 import type { Allowed } from '../store/refused.ts';
 import { ALL_ALLOWED } from '../store/refused.ts';
-import type { MeshFile, Work } from '../store/state.ts';
+import type { Demo, MeshFile, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { isSameWork } from '../store/work.ts';
 import { buildDemo, demoEvents, openDemo, showOwnLink } from './open.ts';
@@ -27,13 +27,18 @@ function forget(): void {
   history.replaceState(null, '', location.pathname + location.search);
 }
 
-/** Follows links. A link whose files cannot be loaded stays in the address, so that a reload tries again, until other work is on the page. */
+/**
+ * Follows links. A link stays in the address where a reload may mend what has failed, since its files or the program could not be loaded,
+ * until other work is on the page. Another link that has come into the address meanwhile is left alone.
+ */
 export class Links {
   readonly #store: Store;
   readonly #reader: FileReader;
   readonly #receiver: Receiver;
-  /** Whether the address still has a link that has failed. */
-  #hasFailed = false;
+  /** The hash of the link that was begun last. */
+  #begun = '';
+  /** The hash of a link that has failed and that a reload would follow again; `null` for none. */
+  #failed: string | null = null;
 
   constructor(store: Store, reader: FileReader) {
     this.#store = store;
@@ -46,13 +51,13 @@ export class Links {
         void this.#open(delivery);
       },
       failed: (fault, { name, host }) => {
-        this.#hasFailed = true;
+        this.#failed = this.#begun;
         store.dispatch({ kind: 'error', sentence: fetchSentence(fault, name, host) });
       },
     });
     store.subscribe((state, previous) => {
-      if (this.#hasFailed && !isSameWork(state, previous)) {
-        this.#end('left-out');
+      if (this.#failed !== null && !isSameWork(state, previous)) {
+        this.#end(this.#failed, 'left-out');
       }
     });
   }
@@ -93,11 +98,10 @@ export class Links {
     }
   };
 
-  /** Gives the link up and removes it from the address. */
+  /** Gives the link up, and puts the link of what is on the page into the address in its place. */
   readonly cancel = (): void => {
-    this.#hasFailed = false;
-    forget();
     this.#receiver.cancel();
+    this.#end(this.#begun, 'left-out');
   };
 
   /** Whether the link waits for files. */
@@ -122,27 +126,29 @@ export class Links {
 
   /** Begins with a link; returns whether the demo that it names has come. */
   async #begin(link: Link): Promise<boolean> {
-    this.#hasFailed = false;
-    const { demo, work } = link;
-    if (demo === null) {
+    const hash = location.hash;
+    this.#begun = hash;
+    this.#failed = null;
+    const { demo: id, work } = link;
+    if (id === null) {
       this.#receiver.receive(link);
       return false;
     }
     this.#receiver.cancel();
-    if (work !== null) {
-      await this.#openDemoWork(demo, work);
-      return false;
-    }
-    return demo !== this.#store.state.demo?.id && openDemo(this.#store, this.#reader, demo);
-  }
-
-  async #openDemoWork(id: string, work: NonNullable<Link['work']>): Promise<void> {
     const demo = this.#store.state.demos.find((candidate) => candidate.id === id);
     if (demo === undefined) {
       forget();
       this.#store.dispatch({ kind: 'error', sentence: SENTENCES.noDemo });
-      return;
+      return false;
     }
+    if (work !== null) {
+      await this.#openDemoWork(hash, demo, work);
+      return false;
+    }
+    return id !== this.#store.state.demo?.id && openDemo(this.#store, this.#reader, id);
+  }
+
+  async #openDemoWork(hash: string, demo: Demo, work: NonNullable<Link['work']>): Promise<void> {
     const outcome = await perform(
       this.#store,
       'Opening the link…',
@@ -157,18 +163,22 @@ export class Links {
         }
       },
     );
-    this.#end(outcome);
+    this.#end(hash, outcome);
   }
 
-  /** Puts the link of what is on the page into the address in place of the followed one, unless that has failed. */
-  #end(outcome: Outcome): void {
-    this.#hasFailed = outcome === 'failed';
-    if (outcome !== 'failed') {
+  /** Puts the link of what is on the page into the address in place of the followed one, unless a reload is to follow that again. */
+  #end(hash: string, outcome: Outcome): void {
+    if (location.hash !== hash) {
+      return;
+    }
+    this.#failed = outcome === 'not-loaded' ? hash : null;
+    if (outcome !== 'not-loaded') {
       showOwnLink(this.#store.state);
     }
   }
 
   async #open(delivery: Delivery): Promise<void> {
+    const hash = this.#begun;
     if (this.#store.state.job.kind === 'running') {
       // A run has begun while the files came, so the link stays in the address, and a reload opens it.
       this.#store.dispatch({ kind: 'error', sentence: SENTENCES.whileRunning });
@@ -190,7 +200,7 @@ export class Links {
         });
       },
     );
-    this.#end(outcome);
+    this.#end(hash, outcome);
   }
 
   /** Reads the meshes that have come, and builds those of demos. */

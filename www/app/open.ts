@@ -114,9 +114,12 @@ export async function openDemo(store: Store, reader: FileReader, id: string): Pr
   return outcome === 'done';
 }
 
-/** Keeps the demo's link in the address while the demo is on the page, and removes it when other meshes have come. */
+/**
+ * Keeps the demo's link in the address while the demo is on the page, and removes it when other meshes have come. A link that is being
+ * received has the address to itself.
+ */
 export function followDemo(state: State, previous: State): void {
-  if (previous.demo !== state.demo) {
+  if (previous.demo !== state.demo && state.receiving.kind === 'nothing') {
     showOwnLink(state);
   }
 }

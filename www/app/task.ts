@@ -1,4 +1,5 @@
 /** Tasks other than a run: the page says what it does, and a new task replaces the one before. */
+import type { Failure } from '../compute/messages.ts';
 import { failureOf } from '../compute/messages.ts';
 import { FileRefused } from '../files.ts';
 import { failureSentence } from '../messages.ts';
@@ -29,6 +30,11 @@ export function errorOf(thrown: unknown): Extract<Event, { readonly kind: 'error
   return { kind: 'error', sentence: failureSentence(failure), failure };
 }
 
+/** Whether something failed because a part of the program did not load: then nothing is wrong with the files. */
+export function isNotThere(failure: Failure | null | undefined): boolean {
+  return failure?.code === 'no-core';
+}
+
 /** Gives up the task that the page is busy with, if there is one. */
 export function leaveTask(store: Store): void {
   const { job } = store.state;
@@ -53,8 +59,11 @@ export async function performBeside<T>(store: Store, sentence: string, prepare: 
   }
 }
 
-/** How a task ended: done, failed with a sentence, or left out because another one had begun. */
-export type Outcome = 'done' | 'failed' | 'left-out';
+/**
+ * How a task ended: done, failed with a sentence, failed because a part of the program did not load, which a reload may mend, or left out
+ * because another one had begun.
+ */
+export type Outcome = 'done' | 'failed' | 'not-loaded' | 'left-out';
 
 /**
  * Prepares something, then works on it. The sentence can be read before the work blocks the page. Where another task has begun meanwhile,
@@ -93,8 +102,9 @@ export async function perform<T>(
     if (leaving.signal.aborted) {
       return 'left-out';
     }
-    store.dispatch(errorOf(thrown));
-    return 'failed';
+    const error = errorOf(thrown);
+    store.dispatch(error);
+    return isNotThere(error.failure) ? 'not-loaded' : 'failed';
   } finally {
     unsubscribe();
     store.dispatch({ kind: 'task-ended', task });
