@@ -1,8 +1,11 @@
 /** When the page begins to look for landmarks unasked. */
 import { beforeEach, expect, test, vi } from 'vitest';
 import { findUnasked } from '../../www/app/find-unasked.ts';
+import type { Side } from '../../www/landmarks.ts';
 import type { Event } from '../../www/store/events.ts';
+import type { MeshFile } from '../../www/store/state.ts';
 import { Store } from '../../www/store/store.ts';
+import { workOf } from '../../www/store/work.ts';
 import { DEMO, mesh, pair } from './fixtures.ts';
 
 let store = new Store();
@@ -48,11 +51,20 @@ test('nothing is looked for with landmarks, beside a demo, in large meshes, and 
   store = new Store();
   findUnasked(store, start);
   store.dispatch({ kind: 'ready', demos: [DEMO] });
-  store.dispatch(source(), target(), { kind: 'demo', demo: DEMO });
+  const ofDemo = (side: Side): Event => ({ kind: 'mesh', side, file: { ...mesh('ball.obj'), ofDemo: { id: DEMO.id, side } } });
+  store.dispatch(ofDemo(0), ofDemo(1), { kind: 'demo', demo: DEMO });
   expect(await begun()).toBe(0);
   // One mesh of the demo is still on the page.
   expect(await begun(source())).toBe(0);
   expect(await begun(target(200_000))).toBe(0);
   expect(await begun(target())).toBe(1);
   expect(await begun({ kind: 'undo' }, { kind: 'redo' })).toBe(1);
+});
+
+test('nothing is looked for on the swapped meshes of a demo that a link brings', async () => {
+  const first: MeshFile = { ...mesh('ball.obj'), ofDemo: { id: DEMO.id, side: 1 } };
+  const second: MeshFile = { ...mesh('ball.obj'), ofDemo: { id: DEMO.id, side: 0 } };
+  const work = { ...workOf(store.state), meshes: [first, second] as const };
+  expect(await begun({ kind: 'received', work, ui: {} })).toBe(0);
+  expect(await begun({ kind: 'received', work: { ...work, meshes: [mesh('cat.obj'), mesh('lion.obj')] }, ui: {} })).toBe(1);
 });
