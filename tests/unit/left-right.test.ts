@@ -320,6 +320,21 @@ describe('the planes of the meshes', () => {
     expect([twinOf(store.state, 6)?.id, twinOf(store.state, 2)?.id]).toEqual([7, 8]);
   });
 
+  test('make no pairs go together that come while places are suggested, but only those that are taken', async () => {
+    const { store } = opened(ANSWER);
+    store.dispatch({ kind: 'left-right', isOn: true });
+    await settled();
+    store.dispatch({ kind: 'suggested', side: 0, suggestions: [suggestion(2, 'A'), suggestion(5, 'B')] });
+    store.dispatch({ kind: 'landmarks', file: { pairs: [[3, 10], [6, 11], [4, 12], [5, 13]] } });
+    store.dispatch({ kind: 'point-picked', side: 0, point: 7, across: null });
+    await settled();
+    const twins = (): unknown[] => store.state.pairs.map(({ id, points }) => [points[0], twinOf(store.state, id)?.points[0]]).filter(([, twin]) => twin !== undefined);
+    expect(twins()).toEqual([]);
+    store.dispatch({ kind: 'point-picked', side: 0, point: 2, across: null });
+    await settled();
+    expect(twins()).toEqual([[7, 2], [2, 7]]);
+  });
+
   test('remove the suggestion at whose place a partner stands', async () => {
     const { store } = opened(ANSWER);
     store.dispatch({ kind: 'left-right', isOn: true });

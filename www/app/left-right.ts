@@ -5,6 +5,7 @@ import type { FileReader } from '../reading/reader.ts';
 import { lastTwo, planeInUse, twinOf } from '../store/across.ts';
 import type { Event } from '../store/events.ts';
 import type { Across, PlaneAnswer, PlaneChoice } from '../store/left-right.ts';
+import { holder } from '../store/pairs.ts';
 import { proposed } from '../store/proposal.ts';
 import type { State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
@@ -58,6 +59,13 @@ function countOn({ pairs }: Pick<State, 'pairs'>, side: Side): number {
   return pairs.filter(({ points }) => points[side] !== null).length;
 }
 
+/** The pairs that now hold a suggested point of a side which has just been taken, by their ids. */
+function justTaken(state: State, previous: State, side: Side): ReadonlySet<number> {
+  const gone = previous.suggestions[side].filter((suggestion) => !state.suggestions[side].includes(suggestion));
+  const takers = gone.flatMap(({ point }) => (holder(previous, side, point, null) === null ? (holder(state, side, point, null)?.id ?? []) : []));
+  return new Set(state.meshes[side] === previous.meshes[side] ? takers : []);
+}
+
 /** Owns the planes that were found for the meshes, and brings the suggested places in line with them. */
 export class Planes {
   readonly #store: Store;
@@ -83,8 +91,11 @@ export class Planes {
     store.subscribe((state, previous) => {
       for (const side of SIDES) {
         if (previous.suggestions[side].length > 0 && planeInUse(state, side) !== null && countOn(state, side) > countOn(previous, side)) {
+          const taken = justTaken(state, previous, side);
           queueMicrotask(() => {
-            this.#findTwins(side);
+            if (taken.size > 0) {
+              this.#findTwins(side, taken);
+            }
             this.#removeTaken(side);
           });
         }
@@ -149,10 +160,14 @@ export class Planes {
     }
   }
 
-  /** Links pairs that were placed before as left and right, so that they go together from now on. */
-  #findTwins(side: Side): void {
+  /**
+   * Links pairs that were placed before as left and right, so that they go together from now on; where `among` is given, only those with one
+   * of its pairs.
+   */
+  #findTwins(side: Side, among?: ReadonlySet<number>): void {
     const { state, dispatch } = this.#store;
-    const twins = planeInUse(state, side) === null ? [] : twinsOn(state, side, this.#mirror);
+    const all = planeInUse(state, side) === null ? [] : twinsOn(state, side, this.#mirror);
+    const twins = among === undefined ? all : all.filter((pair) => pair.some((id) => among.has(id)));
     if (twins.length > 0) {
       dispatch({ kind: 'twins', twins });
     }
