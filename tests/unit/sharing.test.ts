@@ -2,6 +2,7 @@
 import { afterEach, beforeAll, beforeEach, describe, expect, test, vi } from 'vitest';
 import { Links } from '../../www/app/links.ts';
 import { buildDemo, demoEvents, followDemo } from '../../www/app/open.ts';
+import { arrivingOf } from '../../www/app/projects.ts';
 import { place, sentWorkOf, withMeshes } from '../../www/app/sent-work.ts';
 import { sharedLink } from '../../www/app/sharing.ts';
 import type { Link } from '../../www/send/link.ts';
@@ -169,6 +170,15 @@ describe('a link', () => {
     expect(receiver.state.meshes.map((file) => file?.name)).toEqual(['sphere-tetrahedron-target.obj', 'sphere-tetrahedron-source.obj']);
     expect(sentWorkOf(receiver.state)).toEqual(sentWorkOf(sender.state));
     expect((await linkOf(receiver)).hash).toBe(hash);
+  });
+
+  test('to such a demo asks for no files after it came in a project file either, where the page has the demo', () => {
+    const ofDemo = { id: 'sphere-tetrahedron', side: 1 } as const;
+    const mesh = { name: 'ball.obj', bytes: octahedron(1), address: null };
+    expect(arrivingOf({ ...mesh, ofDemo }, [{ id: ofDemo.id }])).toEqual({ ...mesh, ofDemo });
+    expect(arrivingOf({ ...mesh, ofDemo }, [{ id: 'other' }])).toEqual(mesh);
+    expect(arrivingOf(mesh, [{ id: ofDemo.id }])).toEqual(mesh);
+    expect(arrivingOf(null, [])).toBeNull();
   });
 
   test('waits while a run goes on, and is opened by a click after it', async () => {

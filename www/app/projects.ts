@@ -9,10 +9,11 @@ import { PROJECT_ENDING, ProjectRefused, readProject, writeProject } from '../se
 import { landmarkFileOf } from '../store/landmark-file.ts';
 import { ALL_ALLOWED } from '../store/refused.ts';
 import { shownResult } from '../store/staleness.ts';
-import type { MeshFile, State } from '../store/state.ts';
+import type { Demo, MeshFile, State } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
 import { workName } from '../store/work.ts';
 import type { Openers } from './open.ts';
+import type { ArrivingMesh } from './sent-work.ts';
 import { place, readArriving, sentWorkOf, withMeshes } from './sent-work.ts';
 import { perform, performBeside } from './task.ts';
 
@@ -20,8 +21,17 @@ function projectMesh(file: MeshFile | null): ProjectMesh | null {
   if (file === null) {
     return null;
   }
-  const { name, bytes, address = null, picture } = file;
-  return { name, bytes, address, ...(picture === undefined ? {} : { picture }) };
+  const { name, bytes, address = null, ofDemo, picture } = file;
+  return { name, bytes, address, ...(ofDemo === undefined ? {} : { ofDemo }), ...(picture === undefined ? {} : { picture }) };
+}
+
+/** A mesh of a project as it comes onto the page; a demo that the page does not have is forgotten, since no link could bring it. */
+export function arrivingOf(mesh: ProjectMesh | null, demos: readonly Pick<Demo, 'id'>[]): ArrivingMesh | null {
+  if (mesh === null) {
+    return null;
+  }
+  const { ofDemo, ...file } = mesh;
+  return demos.some(({ id }) => id === ofDemo?.id) && ofDemo !== undefined ? { ...file, ofDemo } : file;
 }
 
 /** The state of the page as a project; the project has the map file where the result has one. */
@@ -63,7 +73,9 @@ export async function openProject(store: Store, { reader, maps }: Openers, file:
     'Unpacking the project…',
     async (signal) => {
       const project = await projectIn(file);
-      return { ...project, read: await readArriving(reader, project.meshes, ALL_ALLOWED, signal) };
+      const { demos } = store.state;
+      const meshes = [arrivingOf(project.meshes[0], demos), arrivingOf(project.meshes[1], demos)] as const;
+      return { ...project, read: await readArriving(reader, meshes, ALL_ALLOWED, signal) };
     },
     ({ read, work, result }) => {
       withMeshes(read, (loaded) => {

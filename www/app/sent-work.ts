@@ -10,6 +10,7 @@ import type { Event } from '../store/events.ts';
 import type { Allowed } from '../store/refused.ts';
 import type { Demo, MeshFile, State, Work } from '../store/state.ts';
 import type { Store } from '../store/store.ts';
+import type { DemoMesh } from '../store/work.ts';
 
 /** A mesh that comes with a link or project. */
 export interface ArrivingMesh {
@@ -17,6 +18,8 @@ export interface ArrivingMesh {
   readonly bytes: Uint8Array;
   /** Where it was loaded from; `null` where it was given by hand. */
   readonly address: string | null;
+  /** The demo that it was built for. */
+  readonly ofDemo?: DemoMesh;
   /** The picture or materials that came with it. */
   readonly picture?: Uint8Array;
 }
@@ -34,8 +37,14 @@ export function sentWorkOf({ pairs, up, groundTruth, options, ui }: State): Sent
 }
 
 /** An arriving mesh as a file. */
-function named({ name, bytes, address, picture }: ArrivingMesh): NamedBytes {
-  return { name, bytes, ...(address === null ? {} : { address }), ...(picture === undefined ? {} : { picture }) };
+function named({ name, bytes, address, ofDemo, picture }: ArrivingMesh): NamedBytes {
+  return {
+    name,
+    bytes,
+    ...(address === null ? {} : { address }),
+    ...(ofDemo === undefined ? {} : { ofDemo }),
+    ...(picture === undefined ? {} : { picture }),
+  };
 }
 
 /** Reads arriving meshes. Meshes of work that was on a page before are allowed every repair that they were given there. */

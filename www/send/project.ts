@@ -4,12 +4,13 @@
  */
 import * as v from 'valibot';
 import type { ProjectFault } from '../messages.ts';
+import type { DemoMesh } from '../store/work.ts';
 import { addressOf, LONGEST_ADDRESS, shownName } from './address.ts';
 import type { Archiver, Entries } from './archive.ts';
 import { ArchiveRefused, isArchive, readArchive } from './archive.ts';
 import { hashOf } from './hash.ts';
 import type { SentWork } from './schema.ts';
-import { SentWorkSchema } from './schema.ts';
+import { SentWorkSchema, Text } from './schema.ts';
 
 export const PROJECT_ENDING = '.conemap.zip';
 
@@ -29,6 +30,8 @@ export interface ProjectMesh {
   readonly bytes: Uint8Array;
   /** The address from which the mesh was loaded; `null` where it was given by hand. */
   readonly address: string | null;
+  /** The demo that it was built for; missing for other files. */
+  readonly ofDemo?: DemoMesh;
   /** The picture or materials that came with it; missing where its own file holds everything. */
   readonly picture?: Uint8Array;
 }
@@ -59,6 +62,7 @@ const MeshEntry = v.nullable(
     hash: v.nullable(v.pipe(v.string(), v.regex(/^[\w-]{43}$/))),
     address: v.nullable(v.pipe(v.string(), v.maxLength(LONGEST_ADDRESS))),
     picture: v.exactOptional(v.picklist(['pictures/source', 'pictures/target'])),
+    ofDemo: v.exactOptional(v.object({ id: v.pipe(Text, v.minLength(1)), side: v.picklist([0, 1]) })),
   }),
 );
 type MeshEntry = v.InferOutput<typeof MeshEntry>;
@@ -82,7 +86,8 @@ async function meshEntry(folder: 'source' | 'target', mesh: ProjectMesh | null):
     return null;
   }
   const picture = mesh.picture === undefined ? {} : ({ picture: `pictures/${folder}` } as const);
-  return { name: mesh.name, entry: entryOf(folder, mesh), hash: await hashOf(mesh.bytes), address: mesh.address, ...picture };
+  const ofDemo = mesh.ofDemo === undefined ? {} : { ofDemo: mesh.ofDemo };
+  return { name: mesh.name, entry: entryOf(folder, mesh), hash: await hashOf(mesh.bytes), address: mesh.address, ...picture, ...ofDemo };
 }
 
 async function entriesOf(project: Project, landmarks: string): Promise<Entries> {
@@ -191,6 +196,7 @@ async function meshOf(entry: MeshEntry, files: Entries): Promise<ProjectMesh | n
     bytes,
     address: typeof address === 'string' ? null : address.url,
     ...(picture === undefined ? {} : { picture }),
+    ...(entry.ofDemo === undefined ? {} : { ofDemo: entry.ofDemo }),
   };
 }
 

@@ -21,6 +21,7 @@ function anyProject(random: Random): Project {
     bytes: random.bytes(random.below(5000)),
     address: random.of([null, 'https://data.example/cat.obj']),
     ...random.of([{}, { picture: random.bytes(50) }]),
+    ...random.of([{}, { ofDemo: { id: 'horse-cat', side: random.of([0, 1] as const) } }]),
   });
   return {
     meshes: random.of([
@@ -113,6 +114,19 @@ describe('a project file that is none or was changed', () => {
     expect(await changed((entries) => delete entries['report.json'])).toEqual({ ...CAT_LION, result: null });
     expect(await changed((entries) => delete entries['map.conemap'])).toEqual({ ...CAT_LION, result: { map: null, report: '{}' } });
     expect(await changed(withManifest((manifest) => ({ ...manifest, later: 1 })))).toEqual(CAT_LION);
+  });
+
+  test('is refused where the demo of a mesh is none', async () => {
+    const ofDemo = (given: unknown) => (manifest: Record<string, unknown>) => {
+      const [source, target] = manifest['meshes'] as [object, object];
+      return { ...manifest, meshes: [{ ...source, ofDemo: given }, target] };
+    };
+    for (const given of [null, 'horse-cat', {}, { id: 'horse-cat' }, { id: '', side: 0 }, { id: 7, side: 0 }, { id: 'a', side: 2 }, { id: 'a', side: '0' }]) {
+      expect(await changed(withManifest(ofDemo(given)))).toBe('damaged');
+    }
+    expect(await changed(withManifest(ofDemo({ id: 'a'.repeat(20_000), side: 0 })))).toBe('damaged');
+    const opened = (await changed(withManifest(ofDemo({ id: 'a', side: 1, more: 'b' })))) as Project;
+    expect(opened.meshes.map((mesh) => mesh?.ofDemo)).toEqual([{ id: 'a', side: 1 }, undefined]);
   });
 
   test('asks no other way for its meshes than https', async () => {
