@@ -83,6 +83,9 @@ export interface Suggestion {
   readonly partner: string | null;
 }
 
+/** How suggestions that look alike are taken: each alone, or both together where left and right go together. */
+export type Taking = 'alone' | 'together';
+
 /** A landmark file as the core reads it. */
 export interface LandmarkFile {
   readonly source?: string;

@@ -1,6 +1,6 @@
 /** The sentences of the page: the only place that turns codes into sentences. */
 import type { Failure } from './compute/messages.ts';
-import type { Pair, Suggestion } from './landmarks.ts';
+import type { Pair, Suggestion, Taking } from './landmarks.ts';
 import type { Finding, RepairOffer } from './report.ts';
 
 /** A name for each stage of the report's seconds. */
@@ -260,11 +260,11 @@ export function offerSentence(name: string, pairs: number): string {
   return `Continue with ${name}, ${count(pairs, 'pair')}?`;
 }
 
-/** The name of a suggestion in a sentence; `isTogether` where left and right are taken together. */
-export function suggestionName({ letter, reason, partner }: Suggestion, all: readonly Suggestion[], isTogether: boolean): string {
+/** The name of a suggestion in a sentence. */
+export function suggestionName({ letter, reason, partner }: Suggestion, all: readonly Suggestion[], taking: Taking): string {
   const what = reason === 'tip' ? 'the end of a limb' : 'a place far from all landmarks';
   const isThere = all.some((other) => other.letter === partner);
-  return `${letter}, ${what}${partner !== null && isThere ? `, looks like ${partner}: ${isTogether ? 'both are taken together' : 'mind left and right'}` : ''}`;
+  return `${letter}, ${what}${partner !== null && isThere ? `, looks like ${partner}: ${taking === 'together' ? 'both are taken together' : 'mind left and right'}` : ''}`;
 }
 
 /** A hint at what to do next. */

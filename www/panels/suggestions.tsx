@@ -3,7 +3,7 @@ import type { VNode } from 'preact';
 import type { Side } from '../landmarks.ts';
 import { otherSide, SIDES } from '../landmarks.ts';
 import { suggestionName } from '../messages.ts';
-import { planeInUse } from '../store/across.ts';
+import { takingOn } from '../store/across.ts';
 import type { PartProps } from './actions.ts';
 import { SIDE_NAMES } from './names.ts';
 
@@ -30,7 +30,7 @@ function Ask({ state, actions, side }: { readonly side: Side } & Props): VNode {
 function Found({ state, actions, side }: { readonly side: Side } & Props): VNode | null {
   const suggestions = state.suggestions[side];
   const [name, other] = [SIDE_NAMES[side], SIDE_NAMES[otherSide(side)]];
-  const isTogether = planeInUse(state, side) !== null;
+  const taking = takingOn(state, side);
   if (suggestions.length === 0) {
     return null;
   }
@@ -41,7 +41,7 @@ function Found({ state, actions, side }: { readonly side: Side } & Props): VNode
       </p>
       <ol>
         {suggestions.map((suggestion) => {
-          const words = suggestionName(suggestion, suggestions, isTogether);
+          const words = suggestionName(suggestion, suggestions, taking);
           return (
             <li key={suggestion.point}>
               <button

@@ -1,5 +1,5 @@
 /** Which mirror planes are in use, and which pairs are each other's mirror image. */
-import type { Pair, Side } from '../landmarks.ts';
+import type { Pair, Side, Taking } from '../landmarks.ts';
 import type { MeshPlane, Plane } from './left-right.ts';
 import type { State } from './state.ts';
 
@@ -16,6 +16,11 @@ export function planeInUse({ leftRight, meshes }: Pick<State, 'leftRight' | 'mes
     return null;
   }
   return known.choice !== 'found' || known.answer.fits ? known.answer.plane : null;
+}
+
+/** How the suggestions of a side that look alike are taken. */
+export function takingOn(state: Pick<State, 'leftRight' | 'meshes'>, side: Side): Taking {
+  return planeInUse(state, side) === null ? 'alone' : 'together';
 }
 
 /** The state after a plane of a side was asked for or found. */

@@ -1,6 +1,6 @@
 /** The rings of suggested points over a view; a click or a key takes one as a landmark. */
 import { make } from '../dom.ts';
-import type { Suggestion } from '../landmarks.ts';
+import type { Suggestion, Taking } from '../landmarks.ts';
 import { suggestionName } from '../messages.ts';
 
 /** The rings over one view. */
@@ -13,10 +13,10 @@ export class Rings {
     view.append(this.#layer);
   }
 
-  /** Shows these suggestions, of which left and right may be taken together; `take` is called with the one that is taken. */
-  show(suggestions: readonly Suggestion[], isTogether: boolean, take: (suggestion: Suggestion) => void): void {
+  /** Shows these suggestions; `take` is called with the one that is taken. */
+  show(suggestions: readonly Suggestion[], taking: Taking, take: (suggestion: Suggestion) => void): void {
     this.#rings = suggestions.map((suggestion) => {
-      const name = suggestionName(suggestion, suggestions, isTogether);
+      const name = suggestionName(suggestion, suggestions, taking);
       const ring = make('button', { type: 'button', title: name, 'aria-label': `Take ${name}` }, suggestion.letter);
       ring.addEventListener('click', () => {
         take(suggestion);

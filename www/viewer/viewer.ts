@@ -9,7 +9,7 @@ import type { Axes } from '../method/axes.ts';
 import { axesOf } from '../method/axes.ts';
 import type { FlowFrame, StageFrame, Stops } from '../method/hands.ts';
 import type { BasePart } from '../method/parts.ts';
-import { planeInUse } from '../store/across.ts';
+import { planeInUse, takingOn } from '../store/across.ts';
 import { otherMap, shownStyle } from '../store/compared.ts';
 import type { Event } from '../store/events.ts';
 import { shownFlows } from '../store/flat.ts';
@@ -530,7 +530,7 @@ export class Views {
     for (const side of SIDES) {
       const suggestions = this.#state.meshes[side] === null ? [] : this.#state.suggestions[side];
       viewer.setSuggestions(side, JSON.stringify(suggestions.map((suggestion) => suggestion.point)));
-      this.#rings[side].show(suggestions, planeInUse(this.#state, side) !== null, ({ point }) => {
+      this.#rings[side].show(suggestions, takingOn(this.#state, side), ({ point }) => {
         this.#listener.dispatch({ kind: 'point-picked', side, point });
       });
     }
