@@ -270,3 +270,13 @@ test('a dispatch that changes nothing tells nobody', () => {
   store.dispatch({ kind: 'undo' }, { kind: 'redo' }, { kind: 'toast-closed' }, { kind: 'pair-selected', id: null });
   expect(store.state).toBe(INITIAL);
 });
+
+test('locks that change together are one step, named by their number', () => {
+  const store = new Store();
+  store.dispatch({ kind: 'landmarks', file: { pairs: [[0, 0], [1, 1], [2, 2]] } });
+  const [a, b] = store.state.pairs;
+  store.dispatch({ kind: 'pair-locked', id: a?.id ?? 0, locked: true }, { kind: 'pair-locked', id: b?.id ?? 0, locked: true });
+  expect(store.state.history.past.at(-1)?.name).toBe('Lock 2 pairs');
+  store.dispatch({ kind: 'pair-locked', id: b?.id ?? 0, locked: false });
+  expect(store.state.history.past.at(-1)?.name).toBe('Unlock pair 2');
+});

@@ -165,7 +165,7 @@ test('meshes in several files come by the choosers: a set, a zip, an OBJ with it
   }
 });
 
-test('landmarks alone say which meshes they wait for, and can be left', async ({ page }) => {
+test('landmarks alone say which meshes they wait for, and can be deleted', async ({ page }) => {
   await page.route('**/none.obj', async (route) => route.fulfill({ status: 404 }));
   await open(page, '#source=none.obj');
   await expect(page.locator('#error')).toBeVisible();
@@ -175,7 +175,12 @@ test('landmarks alone say which meshes they wait for, and can be left', async ({
   await expect(notice).toContainText('4 landmark pairs wait for their source (a.obj) and their target (b.obj): drop them here.');
   await page.locator('#mesh-files').setInputFiles({ name: 'b.obj', mimeType: 'application/octet-stream', buffer: Buffer.from(TETRAHEDRON) });
   await expect(notice).toContainText('4 landmark pairs wait for their source (a.obj): drop it here.');
-  await notice.getByRole('button', { name: 'Leave the landmarks' }).click();
+  await openStep(page, 'landmarks');
+  await page.getByRole('button', { name: 'Lock pair 2', exact: true }).click();
+  await notice.getByRole('button', { name: 'Delete the landmarks' }).click();
+  await expect(page.getByText('3 landmark pairs deleted. 1 locked pair stayed.')).toBeVisible();
+  await notice.getByRole('button', { name: 'Unlock the landmarks' }).click();
+  await notice.getByRole('button', { name: 'Delete the landmarks' }).click();
   await expect(notice).toBeHidden();
-  await expect(page.getByText('4 landmark pairs deleted.')).toBeVisible();
+  await expect(pairs(page)).toHaveCount(0);
 });

@@ -81,7 +81,10 @@ function MapNotice({ state, map, actions }: { readonly state: State; readonly ma
 
 /** The notice about landmark pairs that wait for their meshes; `null` where none do. */
 function LandmarksNotice({ state, actions }: Pick<PartProps, 'state' | 'actions'>): VNode | null {
-  const pairs = wholePairs(state).length;
+  const whole = wholePairs(state);
+  const pairs = whole.length;
+  // Locked pairs are never deleted, so that where there are no others the notice offers to unlock them.
+  const areLocked = whole.every(({ locked }) => locked);
   const missing = SIDES.filter((side) => state.meshes[side] === null).map((side) => ({ side, name: state.named[side] }));
   return pairs === 0 || missing.length === 0 ? null : (
     <div class="notice" id="landmarks-notice">
@@ -89,10 +92,14 @@ function LandmarksNotice({ state, actions }: Pick<PartProps, 'state' | 'actions'
       <button
         type="button"
         onClick={() => {
-          actions.dispatch({ kind: 'pairs-cleared' });
+          if (areLocked) {
+            actions.dispatch(...whole.map(({ id }) => ({ kind: 'pair-locked', id, locked: false }) as const));
+          } else {
+            actions.dispatch({ kind: 'pairs-cleared' });
+          }
         }}
       >
-        Leave the landmarks
+        {areLocked ? 'Unlock' : 'Delete'} the landmarks
       </button>
     </div>
   );

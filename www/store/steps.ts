@@ -65,7 +65,10 @@ const NAMES: Names = {
   'suggestions-taken': (_, before, after) => `Take ${count(after.pairs.length - before.pairs.length, 'suggestion')}`,
   'pair-deleted': ({ id }, before) => `Delete ${called(before, id)}`,
   'pair-labelled': ({ id }, before) => `Rename ${called(before, id)}`,
-  'pair-locked': ({ id, locked }, before) => `${locked ? 'Lock' : 'Unlock'} ${called(before, id)}`,
+  'pair-locked': ({ id, locked }, before, after) => {
+    const changed = after.pairs.filter((pair) => before.pairs.some((other) => other.id === pair.id && other.locked !== pair.locked)).length;
+    return `${locked ? 'Lock' : 'Unlock'} ${changed > 1 ? count(changed, 'pair') : called(before, id)}`;
+  },
   'pair-softened': ({ id, radius }, before) => `${radius === null ? 'Hold' : 'Soften'} ${called(before, id)}`,
   'run-done': ({ report }) => `Settle ${count(report.settled?.length ?? 0, 'soft pair')}`,
   'pair-moved': ({ id }, before) => `Reorder ${called(before, id)}`,
