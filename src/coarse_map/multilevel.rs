@@ -730,6 +730,7 @@ mod tests {
     use crate::demo::{self, Demo};
     use crate::layout::SearchOptions;
     use crate::math::scalar::sin;
+    use crate::mesh::insertion::insert;
 
     /// The mean distance of the images of a level's vertices from their true places.
     fn off(map: &CoarseMap<'_>, truth: &[DVec3], scale: f64) -> f64 {
@@ -804,5 +805,32 @@ mod tests {
         assert!(finer.refine_to(1000, options, &mut Silent).unwrap());
         assert!(!finer.is_of_poses(), "{:?}", finer.patch_fit);
         assert!(finer.constraints.iter().all(Vec::is_empty));
+    }
+    #[test]
+    fn images_have_a_vertex_of_their_level_for_each_landmark_near_an_edge() {
+        let demo = demo::build("horse-turning").unwrap();
+        let full = [(0, &demo.source), (1, &demo.target)].map(|(k, mesh)| {
+            let near_edge = |pair: &[u32; 2]| {
+                let h = mesh.outgoing(VertexId(pair[k]));
+                let mut barycentric = [0.0; 3];
+                barycentric[h.corner()] = 0.5;
+                barycentric[h.next().corner()] = 0.4992;
+                barycentric[h.prev().corner()] = 0.0008;
+                SurfacePoint { face: h.face(), barycentric }
+            };
+            let points: Vec<SurfacePoint> = demo.landmarks.iter().map(near_edge).collect();
+            let inserted = insert(mesh, &points).unwrap();
+            LandmarkedMesh::new(&inserted.mesh, &inserted.vertices).unwrap()
+        });
+        assert!(full.iter().all(LandmarkedMesh::has_stand_ins));
+        let options = &MultilevelOptions::default();
+        let levels = coarse_levels(&full, 600, options.rims, &mut Silent).unwrap();
+        let images = drawn_once(&levels, options).images().unwrap();
+        for side in MeshSide::BOTH {
+            let (mesh, level) = (&full[side].refined.mesh, &images.levels[side].mesh);
+            for (&v, &w) in full[side].landmarks.iter().zip(images.landmarks_of(side, &full[side])) {
+                assert!(mesh.positions()[v].distance(level.positions()[w]) < 1e-4);
+            }
+        }
     }
 }
