@@ -49,8 +49,8 @@ impl<'a> MeshWithCoarse<'a> {
         monitor.step(Step::default())?;
         let mut mesh = CollapsibleMesh::new(full);
         for (&heir, &v) in heirs.iter().zip(landmarks).filter(|(heir, v)| heir != v) {
-            let along = mesh.star(heir).find(|&h| mesh.head(h) == v);
-            along.into_iter().for_each(|h| mesh.collapse(h));
+            // The surroundings of such landmarks are apart, so that no collapse changes those of another.
+            full.halfedge_between(heir, v).into_iter().for_each(|h| mesh.collapse(h));
         }
         let held = Held { cones: &is_landmark, others: &is_kept };
         let placing = match has_slivers(&mesh, full.positions()) {

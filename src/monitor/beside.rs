@@ -1,51 +1,41 @@
-//! A monitor for what is made beside a map that is whole already.
+//! What is made beside a map that is whole already.
 
-use super::{Cancelled, MapPreview, Monitor, Stage, Step};
+use super::{Cancelled, Monitor, Step};
 
-/// Passes everything on, and stops a part beside the map where there is no time for it ([`Monitor::has_time`]).
-pub struct Beside<'a> {
+/// What `make` makes; `None` where there is no more time for it at one of its steps ([`Monitor::has_time`]).
+///
+/// # Errors
+/// The stop that the user asked for.
+pub fn if_time<T>(
+    monitor: &mut dyn Monitor,
+    make: impl FnOnce(&mut dyn Monitor) -> Result<T, Cancelled>,
+) -> Result<Option<T>, Cancelled> {
+    let mut beside = Beside { monitor, is_left_out: false };
+    match make(&mut beside) {
+        Ok(made) => Ok(Some(made)),
+        Err(stop) => {
+            if beside.is_left_out {
+                Ok(None)
+            } else {
+                Err(stop)
+            }
+        }
+    }
+}
+
+/// Passes everything on, and stops where there is no time.
+struct Beside<'a> {
     monitor: &'a mut dyn Monitor,
     is_left_out: bool,
 }
 
-impl<'a> Beside<'a> {
-    /// Wraps the monitor of the run.
-    pub fn new(monitor: &'a mut dyn Monitor) -> Self {
-        Self { monitor, is_left_out: false }
-    }
-
-    /// Whether the part that was stopped is to be left out; it is the run that is to stop otherwise.
-    ///
-    /// # Errors
-    /// The stop that the user asked for.
-    pub fn left_out(&self, stop: Cancelled) -> Result<(), Cancelled> {
-        if self.is_left_out { Ok(()) } else { Err(stop) }
-    }
-}
-
 impl Monitor for Beside<'_> {
-    fn enter(&mut self, stage: Stage) {
-        self.monitor.enter(stage);
+    fn wrapped(&self) -> Option<&dyn Monitor> {
+        Some(self.monitor)
     }
 
-    fn relaxation_begins(&mut self) {
-        self.monitor.relaxation_begins();
-    }
-
-    fn map_energy(&mut self, energy: f64) {
-        self.monitor.map_energy(energy);
-    }
-
-    fn preview(&mut self, preview: &dyn MapPreview) {
-        self.monitor.preview(preview);
-    }
-
-    fn wants_result(&self) -> bool {
-        self.monitor.wants_result()
-    }
-
-    fn has_time(&self) -> bool {
-        self.monitor.has_time()
+    fn wrapped_mut(&mut self) -> Option<&mut dyn Monitor> {
+        Some(self.monitor)
     }
 
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {

@@ -10,7 +10,7 @@ mod receiver;
 mod rising;
 mod stage;
 
-pub use beside::Beside;
+pub use beside::if_time;
 pub use or_stop::{OrStop, unless_stopped};
 pub use portion::Portion;
 pub use preview::MapPreview;

@@ -1,6 +1,6 @@
 //! A part of a stage that reports its own progress from 0 to 1.
 
-use super::{Cancelled, MapPreview, Monitor, Stage, Step};
+use super::{Cancelled, MapPreview, Monitor, Step};
 
 /// The monitor of a part of a stage: it passes the part's fractions on as fractions of the stage. They never fall, also where
 /// nested parts each begin at 0.
@@ -34,30 +34,18 @@ impl<'a> Portion<'a> {
 }
 
 impl Monitor for Portion<'_> {
-    fn enter(&mut self, stage: Stage) {
-        self.monitor.enter(stage);
+    fn wrapped(&self) -> Option<&dyn Monitor> {
+        Some(self.monitor)
     }
 
-    fn relaxation_begins(&mut self) {
-        self.monitor.relaxation_begins();
-    }
-
-    fn map_energy(&mut self, energy: f64) {
-        self.monitor.map_energy(energy);
+    fn wrapped_mut(&mut self) -> Option<&mut dyn Monitor> {
+        Some(self.monitor)
     }
 
     fn preview(&mut self, preview: &dyn MapPreview) {
         if self.previews == Previews::Shown {
             self.monitor.preview(preview);
         }
-    }
-
-    fn wants_result(&self) -> bool {
-        self.monitor.wants_result()
-    }
-
-    fn has_time(&self) -> bool {
-        self.monitor.has_time()
     }
 
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {

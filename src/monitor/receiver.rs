@@ -29,26 +29,52 @@ impl std::error::Error for Cancelled {}
 ///
 /// Algorithms call [`Monitor::step`] between iterations, inside long loops once in so many passes ([`Pulse`](super::Pulse)), and return the error
 /// at once.
+///
+/// What a monitor does not hear or answer itself goes to the one that it wraps, if any.
 pub trait Monitor {
+    /// The monitor that this one wraps, to be asked.
+    fn wrapped(&self) -> Option<&dyn Monitor> {
+        None
+    }
+    /// The monitor that this one wraps, to be told. A monitor has both or none.
+    fn wrapped_mut(&mut self) -> Option<&mut dyn Monitor> {
+        None
+    }
     /// A stage begins.
-    fn enter(&mut self, _stage: Stage) {}
+    fn enter(&mut self, stage: Stage) {
+        if let Some(monitor) = self.wrapped_mut() {
+            monitor.enter(stage);
+        }
+    }
     /// A map is relaxed from now on: another one, or the same one on a finer level or by another kind of energy. The energies reported next
     /// cannot be compared with those before.
-    fn relaxation_begins(&mut self) {}
+    fn relaxation_begins(&mut self) {
+        if let Some(monitor) = self.wrapped_mut() {
+            monitor.relaxation_begins();
+        }
+    }
     /// The present energy of the map that is being relaxed, of the kind that is lowered: 4 for an isometry. It falls until the
     /// next relaxation begins, but for a little that a step may give to the barrier (2e-4 of 4.6 was seen).
-    fn map_energy(&mut self, _energy: f64) {}
+    fn map_energy(&mut self, energy: f64) {
+        if let Some(monitor) = self.wrapped_mut() {
+            monitor.map_energy(energy);
+        }
+    }
     /// A coarse map is the best so far, or was refined. It costs nothing unless it is asked for images.
-    fn preview(&mut self, _preview: &dyn MapPreview) {}
+    fn preview(&mut self, preview: &dyn MapPreview) {
+        if let Some(monitor) = self.wrapped_mut() {
+            monitor.preview(preview);
+        }
+    }
     /// Whether to finish now: no more is tried than a whole, valid result needs. Asked between rounds, levels and
     /// candidates; once true it must stay true.
     fn wants_result(&self) -> bool {
-        false
+        self.wrapped().is_some_and(|monitor| monitor.wants_result())
     }
     /// Whether there is time for what is made beside a map that is whole already, such as its textures: where there is none, it is left
     /// out, and the result says so.
     fn has_time(&self) -> bool {
-        true
+        self.wrapped().is_none_or(|monitor| monitor.has_time())
     }
     /// The current stage went on; an error asks it to stop.
     ///

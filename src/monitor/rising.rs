@@ -1,6 +1,6 @@
 //! A monitor whose stages never go back.
 
-use super::{Cancelled, MapPreview, Monitor, Stage, Step};
+use super::{Cancelled, Monitor, Stage, Step};
 
 /// Passes everything on, but for a share of a stage that falls: a loop that only asks whether to stop reports 0, also in the middle of a
 /// stage, and is passed on with the share reported before.
@@ -19,31 +19,19 @@ impl<'a> Rising<'a> {
 }
 
 impl Monitor for Rising<'_> {
+    fn wrapped(&self) -> Option<&dyn Monitor> {
+        Some(self.monitor)
+    }
+
+    fn wrapped_mut(&mut self) -> Option<&mut dyn Monitor> {
+        Some(self.monitor)
+    }
+
     fn enter(&mut self, stage: Stage) {
         if self.stage.replace(stage) != Some(stage) {
             self.done = 0.0;
         }
         self.monitor.enter(stage);
-    }
-
-    fn relaxation_begins(&mut self) {
-        self.monitor.relaxation_begins();
-    }
-
-    fn map_energy(&mut self, energy: f64) {
-        self.monitor.map_energy(energy);
-    }
-
-    fn preview(&mut self, preview: &dyn MapPreview) {
-        self.monitor.preview(preview);
-    }
-
-    fn wants_result(&self) -> bool {
-        self.monitor.wants_result()
-    }
-
-    fn has_time(&self) -> bool {
-        self.monitor.has_time()
     }
 
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {

@@ -9,7 +9,7 @@ use crate::cone_metric::{
 };
 use crate::landmarks::{Landmarks, MeshSide};
 use crate::mesh::{HalfedgeId, SurfaceMesh, VertexId};
-use crate::monitor::{Beside, Cancelled, Monitor, Rising, Stage};
+use crate::monitor::{Cancelled, Monitor, Rising, Stage, if_time};
 use glam::DVec2;
 use typed_index_collections::{TiVec, ti_vec};
 
@@ -61,14 +61,14 @@ impl Flows {
     ) -> Result<(Self, Vec<Warning>), Cancelled> {
         let mut warnings = Vec::new();
         let mut tried = |side, monitor: &mut dyn Monitor| {
-            let beside = &mut Beside::new(monitor);
-            match metric_of(side, input, base, options, beside) {
-                Ok((metric, report)) => return Ok((Some(metric), Some(report))),
-                Err(FlowError::Cancelled(stop)) => {
-                    beside.left_out(stop)?;
-                    warnings.push(Warning::NoTimeForConeMetric { side });
-                }
-                Err(error) => {
+            let made = if_time(monitor, |monitor| match metric_of(side, input, base, options, monitor) {
+                Err(FlowError::Cancelled(stop)) => Err(stop),
+                outcome => Ok(outcome),
+            });
+            match made? {
+                Some(Ok((metric, report))) => return Ok((Some(metric), Some(report))),
+                None => warnings.push(Warning::NoTimeForConeMetric { side }),
+                Some(Err(error)) => {
                     warnings.push(Warning::NoConeMetric { side, reason: error.to_string() });
                     if let FlowError::NotConverged { report, .. } = error {
                         return Ok((None, Some(*report)));
@@ -81,13 +81,12 @@ impl Flows {
         let (metric, target) = tried(MeshSide::Target, &mut *monitor)?;
         let target_atlas = match &metric {
             Some(metric) => {
-                let beside = &mut Beside::new(monitor);
-                let atlas = flat_atlas(input.target, metric, &input.landmarks.target.raw, beside);
-                if let Err(stop) = atlas {
-                    beside.left_out(stop)?;
+                let landmarks = &input.landmarks.target.raw;
+                let atlas = if_time(monitor, |monitor| flat_atlas(input.target, metric, landmarks, monitor))?;
+                if atlas.is_none() {
                     warnings.push(Warning::NoTimeForConeMetric { side: MeshSide::Target });
                 }
-                atlas.ok()
+                atlas
             }
             None => None,
         };

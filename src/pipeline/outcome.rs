@@ -10,7 +10,7 @@ use crate::base_domain::BaseDomain;
 use crate::landmarks::MeshSide;
 use crate::mesh::cap_faces::CapFaces;
 use crate::mesh::{FaceFrame, FaceId, RefinedMesh, SurfaceMesh, SurfacePoint, VertexId};
-use crate::monitor::{Beside, Cancelled, Monitor, Step};
+use crate::monitor::{Cancelled, Monitor, Step, if_time};
 use crate::surface_map::correspondence::Correspondence;
 use crate::surface_map::flat_layout::FlatLayout;
 use crate::surface_map::measures::distortion::{Distortion, image_distortion, skin_distortion};
@@ -67,15 +67,11 @@ impl Outcome<'_> {
         let images: TiVec<VertexId, Option<SurfacePoint>> = images.into_iter().map(Some).collect();
         let shown = match overlay {
             Ok(overlay) => {
-                let beside = &mut Beside::new(monitor);
-                let shown = match self.shown_on(&overlay, beside) {
-                    Ok(shown) => shown,
-                    Err(stop) => {
-                        beside.left_out(stop)?;
+                let shown =
+                    if_time(monitor, |monitor| self.shown_on(&overlay, monitor))?.unwrap_or_else(|| {
                         missing.push(Warning::NoTimeForOverlay);
                         self.shown_at_vertices(&images)
-                    }
-                };
+                    });
                 monitor.step(Step { fraction: 0.95, residual: None })?;
                 shown
             }

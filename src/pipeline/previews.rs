@@ -2,7 +2,7 @@
 
 use crate::landmarks::MeshSide;
 use crate::mesh::SurfaceMesh;
-use crate::monitor::{Cancelled, MapPreview, Monitor, Stage, Step};
+use crate::monitor::{Cancelled, MapPreview, Monitor, Step};
 use glam::DVec3;
 
 /// The roles of source and target while the map is made.
@@ -53,28 +53,16 @@ impl MapPreview for OfGivenMeshes<'_> {
 }
 
 impl Monitor for InGivenMeshes<'_> {
-    fn enter(&mut self, stage: Stage) {
-        self.monitor.enter(stage);
+    fn wrapped(&self) -> Option<&dyn Monitor> {
+        Some(self.monitor)
     }
 
-    fn relaxation_begins(&mut self) {
-        self.monitor.relaxation_begins();
-    }
-
-    fn map_energy(&mut self, energy: f64) {
-        self.monitor.map_energy(energy);
+    fn wrapped_mut(&mut self) -> Option<&mut dyn Monitor> {
+        Some(self.monitor)
     }
 
     fn preview(&mut self, preview: &dyn MapPreview) {
         self.monitor.preview(&OfGivenMeshes { preview, meshes: self.meshes, roles: self.roles });
-    }
-
-    fn wants_result(&self) -> bool {
-        self.monitor.wants_result()
-    }
-
-    fn has_time(&self) -> bool {
-        self.monitor.has_time()
     }
 
     fn step(&mut self, step: Step) -> Result<(), Cancelled> {

@@ -8,7 +8,7 @@ use super::{Base, MapInput, MapResult, PipelineError, PipelineOptions, Warning};
 use crate::base_domain::BaseDomain;
 use crate::landmarks::Landmarks;
 use crate::mesh::{SurfaceMesh, VertexId};
-use crate::monitor::{Beside, Cancelled, Monitor, OrStop, Stage, Step};
+use crate::monitor::{Cancelled, Monitor, OrStop, Stage, Step, if_time};
 use crate::surface_map::overlay::location::{Locations, locate};
 use crate::surface_map::overlay::{Overlay, OverlayError, overlay};
 use crate::surface_map::{ConeSurface, Parametrised};
@@ -54,10 +54,10 @@ pub(super) fn composed(
     monitor.step(Step::default())?;
     let locations = locate(source, target, &map.surface, monitor)?;
     monitor.step(Step { fraction: 0.5, residual: None })?;
-    let beside = &mut Beside::new(monitor);
-    let overlay = match overlaid([source, target], &map.surface, &locations, beside) {
-        Ok(overlay) => overlay.map_err(|error| Warning::NoOverlay { reason: error.to_string() }),
-        Err(stop) => beside.left_out(stop).map(|()| Err(Warning::NoTimeForOverlay))?,
+    let made = |monitor: &mut dyn Monitor| overlaid([source, target], &map.surface, &locations, monitor);
+    let overlay = match if_time(monitor, made)? {
+        Some(overlay) => overlay.map_err(|error| Warning::NoOverlay { reason: error.to_string() }),
+        None => Err(Warning::NoTimeForOverlay),
     };
     monitor.step(Step { fraction: 1.0, residual: None })?;
     let base = in_input_coordinates(&map.layout.base, input);
